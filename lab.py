@@ -1,12 +1,12 @@
-"""Set the course up in a folder of its own and open it in JupyterLab.
+"""Set up the course in a separate environment and open it in JupyterLab.
 
-    python lab.py                        set up if need be, then open the course
+    python lab.py                        set up if necessary, then open the course
     python lab.py --no-browser           other arguments go to JupyterLab
-    python lab.py --lecture              with what rehearses and prints lessons
+    python lab.py --lecture              also install packages to rehearse and print lessons
     python lab.py --install-only         set up, open nothing
 
-Only the standard library is used, and only syntax that every Python since 2.7 reads, so that an old
-Python can say what is wrong instead of failing on a line it does not know.
+This file uses only the standard library and syntax that every Python since 2.7 can parse.
+Therefore, an old Python reports its version instead of a syntax error.
 """
 
 import argparse
@@ -27,22 +27,26 @@ LECTURE = ("greenlet", "playwright")  # and what they need besides: nothing
 NEWS = "@jupyterlab/apputils-extension:announcements"
 # what differs from JupyterLab's own settings: the width of the side bar is for whole names
 SETTINGS = {"@jupyterlab/filebrowser-extension:browser": {"showLastModifiedColumn": False}}
-PROJECT = ("pyproject.toml", "labextension")  # what is copied into the environment, not linked
+PROJECT = (
+    "pyproject.toml",
+    "slamlab/pyproject.toml",
+    "labextension",
+)  # what is copied into the environment, not linked
 SPACE = 1.2e9  # bytes
 
-# What pip's output gives away, and what to tell the reader: the first that fits.
+# Signs in pip's output, and the message for the reader: the first match counts.
 FULL = "the disk is full; make room (about 1 GB) and start again"
-OFFLINE = "the package index cannot be reached; installing needs a network: connect and start again"
+OFFLINE = "the package index cannot be reached; connect to a network and start again"
 TROUBLES = (
     (("No space left", "Errno 28"), FULL),
-    (("DO NOT MATCH THE HASHES",), "a download is not what the lock names; start again"),
+    (("DO NOT MATCH THE HASHES",), "a download does not match the lock file; start again"),
     (("Retrying (", "Max retries", "ConnectionError", "Timeout"), OFFLINE),
-    (("No matching distribution",), "no network, or not offered for this computer and Python"),
+    (("No matching distribution",), "no network, or no package for this computer and Python"),
 )
 
 
 class Trouble(SystemExit):
-    """Ends the program with one line that says what is wrong and what to do."""
+    """An error that ends the program with one line: what is wrong and what to do."""
 
     def __init__(self, text):
         SystemExit.__init__(self, "lab.py: " + text)
@@ -67,7 +71,7 @@ def check_python():
         raise Trouble(
             "Python %s is %s than the course supports, which is %d.%d to %d.%d; "
             % ((version, age) + OLDEST + NEWEST)
-            + ("start it so: %s lab.py" % found if found else "install one of these")
+            + ("run: %s lab.py" % found if found else "install one of these")
         )
     try:
         import ensurepip  # noqa: F401
@@ -80,7 +84,7 @@ def check_python():
 
 
 def other_python():
-    """The command of a suitable Python on this computer, or None."""
+    """Return the command of a suitable Python on this computer, or None."""
     for minor in range(NEWEST[1], OLDEST[1] - 1, -1):
         for command in (["python3.%d" % minor], ["py", "-3.%d" % minor]):
             try:
@@ -101,14 +105,15 @@ def log_of(venv):
 
 
 def environment():
-    """Variables for child processes, without those that let other packages in (ROS sets some)."""
+    """Return the variables for child processes, without those that add foreign packages (ROS sets
+    some)."""
     leaks = ("PYTHONPATH", "PYTHONHOME", "PIP_TARGET", "PIP_PREFIX", "PIP_CONSTRAINT")
     kept = {name: value for name, value in os.environ.items() if name not in leaks}
     return dict(kept, PIP_USER="0", PIP_DISABLE_PIP_VERSION_CHECK="1", PYTHONUNBUFFERED="1")
 
 
 def run(venv, *arguments):
-    """Run a module of the environment to its end; its exit code, its output in the log."""
+    """Run a module of the environment, write its output to the log, and return its exit code."""
     command = [python_of(venv), "-m"] + list(arguments)
     began = time.time()
     with open(log_of(venv), "ab") as log:
@@ -128,7 +133,7 @@ def run(venv, *arguments):
 
 
 def install(venv, *arguments):
-    """Run ``pip install`` for exactly what is named; raise Trouble in the reader's words."""
+    """Run ``pip install`` for exactly the named packages; raise Trouble with cause and remedy."""
     log = log_of(venv)
     size = os.path.getsize(log) if os.path.exists(log) else 0
     if run(venv, "pip", "install", "--no-deps", "--no-compile", *arguments) == 0:
@@ -138,28 +143,30 @@ def install(venv, *arguments):
         lines = file.read().splitlines()
     output = "\n".join(lines)
     fitting = [why for signs, why in TROUBLES if any(sign in output for sign in signs)]
-    why = fitting[0] if fitting else "pip failed; what it said is in " + log
+    why = fitting[0] if fitting else "pip failed; its output is in " + log
     errors = [line for line in lines if line.startswith("ERROR")] or lines[-1:]
     raise Trouble(why + " (%s)" % "".join(errors[:1])[:160])
 
 
 def install_all(venv, lock, lecture):
-    """Install the lock, a browser's driver if wanted, and the project; compile; switch news off."""
+    """Install the locked packages, a browser driver if requested, and the project; compile them;
+    disable news."""
     locked = ("--require-hashes", "--only-binary", ":all:", "-r")
-    say("fetching and unpacking packages")
+    say("downloading and unpacking packages")
     install(venv, *(locked + (os.path.join(ROOT, lock),)))
     if lecture:
         driver = os.path.join(venv, "lecture.lock")
         with open(driver, "w") as file:
             file.write(entries(LECTURE_LOCK, LECTURE))
         install(venv, *(locked + (driver,)))
-    install(venv, "--no-index", "--no-build-isolation", "-e", ROOT)
+    library = os.path.join(ROOT, "slamlab")
+    install(venv, "--no-index", "--no-build-isolation", "-e", library, "-e", ROOT)
     say("compiling, so that notebooks start fast")
     # On all cores, which pip does not do; some packages carry templates that no Python compiles.
-    library = os.path.join(venv, "Lib" if os.name == "nt" else "lib")
-    run(venv, "compileall", "-q", "-j", "0", library)
+    packages = os.path.join(venv, "Lib" if os.name == "nt" else "lib")
+    run(venv, "compileall", "-q", "-j", "0", packages)
     if run(venv, "jupyterlab.labextensions", "disable", NEWS):
-        raise Trouble("JupyterLab does not run; why is at the end of " + log_of(venv))
+        raise Trouble("JupyterLab does not start; see the end of " + log_of(venv))
     settings = os.path.join(venv, "share", "jupyter", "lab", "settings")
     os.makedirs(settings, exist_ok=True)
     with open(os.path.join(settings, "overrides.json"), "w") as file:
@@ -167,7 +174,7 @@ def install_all(venv, lock, lecture):
 
 
 def entries(lock, names):
-    """The text of the named packages' entries in a lock."""
+    """Return the text of the named packages' entries in a lock file."""
     with open(os.path.join(ROOT, lock)) as file:
         blocks = file.read().replace("\n ", "\0").splitlines(True)
     return "".join(b for b in blocks if b.split("==")[0] in names).replace("\0", "\n ")
@@ -187,7 +194,7 @@ def write_stamp(venv, stamp):
 
 
 def digest(*paths):
-    """Digest of files and of all files in folders."""
+    """Return a digest of files and of all files in folders."""
     found = []
     for path in [os.path.join(ROOT, path) for path in paths]:
         found.append(path)
@@ -201,12 +208,12 @@ def digest(*paths):
 
 
 def make_venv(venv):
-    """Make an empty environment, in place of one that is unfinished, moved or of another Python."""
+    """Create an empty environment; replace one that is unfinished, moved or of another Python."""
     import venv as builder
 
     if os.path.isdir(venv) and os.listdir(venv):
         if not any(os.path.exists(os.path.join(venv, mark)) for mark in (STAMP, "pyvenv.cfg")):
-            raise Trouble("%s is there and no virtual environment; move it away" % venv)
+            raise Trouble("%s exists but is not a virtual environment; move it" % venv)
         write_stamp(venv, {})  # first written, last removed: the mark of a folder that is ours
         for entry in os.scandir(venv):
             if entry.name != STAMP:
@@ -220,10 +227,11 @@ def make_venv(venv):
 
 
 def set_up(venv, lock, lecture):
-    """Bring the environment to what the lock and the project ask for, if it is not there yet.
+    """Install the packages that the lock and the project require, unless they are installed
+    already.
 
-    The stamp says what was installed. It is empty while that is under way, so an installation that
-    was interrupted is known by it and made anew at the next start.
+    The stamp records what was installed. It is empty during the installation, so an interrupted
+    installation is detected and repeated at the next start.
     """
     stamp = read_stamp(venv)
     here = {"place": venv, "python": "%d.%d" % sys.version_info[:2]}
@@ -233,7 +241,7 @@ def set_up(venv, lock, lecture):
     if usable and stamp == wanted:
         return
     began = time.time()
-    say("setting up %s, once; it takes a few minutes" % os.path.relpath(venv, ROOT))
+    say("setting up %s (only once; it takes a few minutes)" % os.path.relpath(venv, ROOT))
     if not usable:
         make_venv(venv)
         stamp = {}
@@ -249,21 +257,21 @@ def set_up(venv, lock, lecture):
 
 
 def look_for_browser(venv):
-    """Say whether there is a browser to rehearse in; all else goes without one."""
-    command = [python_of(venv), "-m", "slamlab.lecturing.headless"]
+    """Report whether a browser is installed, which only rehearsals and handouts need."""
+    command = [python_of(venv), "-m", "classroom.lecturing.headless"]
     process = subprocess.Popen(
         command, cwd=ROOT, env=environment(), stdout=subprocess.PIPE, stderr=subprocess.STDOUT
     )
-    said = process.communicate()[0].decode("utf-8", "replace").strip()
-    say("for slamlab rehearse and slamlab handout: " + (said or "nothing was found"))
+    found = process.communicate()[0].decode("utf-8", "replace").strip()
+    say("for slamlab rehearse and slamlab handout: " + (found or "no browser was found"))
 
 
 def open_lab(venv, arguments):
-    """Become JupyterLab, showing the first notebook."""
+    """Replace this process with JupyterLab, which opens the first notebook."""
     command = [python_of(venv), "-m", "jupyterlab", "--ServerApp.root_dir=" + ROOT]
     command.append("--LabApp.default_url=/lab/tree/" + START)
     if hasattr(os, "geteuid") and os.geteuid() == 0:
-        say("you are root, for whom JupyterLab would not start by itself; it is told to")
+        say("you are root: JupyterLab is started with --allow-root")
         command.append("--allow-root")
     command += arguments
     os.chdir(ROOT)
@@ -286,20 +294,22 @@ def main(arguments):
     check_python()
     parser = argparse.ArgumentParser(
         prog="lab.py",
-        description="Set up the course and open it in JupyterLab, which gets all other arguments.",
+        description="Set up the course and open it in JupyterLab, which gets the other arguments.",
         allow_abbrev=False,
     )
     parser.add_argument(
         "--lecture",
         action="store_true",
-        help="install what slamlab rehearse and slamlab handout need",
+        help="install the packages for slamlab rehearse and slamlab handout",
     )
     parser.add_argument("--install-only", action="store_true", help="set up, open nothing")
     parser.add_argument("--venv", default=".venv", help="where to install (.venv)")
-    parser.add_argument("--lock", default="requirements.lock", help="what (requirements.lock)")
+    parser.add_argument(
+        "--lock", default="requirements.lock", help="lock file of the packages (requirements.lock)"
+    )
     options, rest = parser.parse_known_args(arguments)
     if options.lecture and not os.path.exists(os.path.join(ROOT, LECTURE_LOCK)):
-        raise Trouble("--lecture is for the whole project or the lecturers' pack; leave it out")
+        raise Trouble("--lecture needs the whole project or the lecturers' pack; omit --lecture")
     venv = os.path.realpath(os.path.join(ROOT, options.venv))
     try:
         set_up(venv, options.lock, options.lecture)

@@ -1,8 +1,9 @@
-"""BOR filter: CPU time of an update as the map grows, memory, tightness of its boxes.
+"""Set-membership filter (BOR): CPU time of an update by map size, memory, and tightness of the
+boxes.
 
-A step is one prediction and four sightings of known objects, as in :mod:`benchmarks.mak`, whose
-filter takes turns with it. Association means that nobody says who was seen. Widths are of one
-prediction, against the hull of a dense sample of everything that may have happened.
+A step is one prediction and four observations of known landmarks, as in :mod:`benchmarks.mak`,
+whose filter is timed in turn with BOR. "Association" means observations without ids. Widths are
+those of one prediction, relative to the hull of a dense sample of all possible motions.
 """
 
 import sys
@@ -12,16 +13,16 @@ import numpy as np
 
 from benchmarks import mak as peer
 from benchmarks.common import cpu_times, main, row, speed_rows
-from slamlab.filters.bor import BOR
-from slamlab.filters.bor.angle_intervals import angle_interval
-from slamlab.filters.bor.intervals import around, width
-from slamlab.filters.bor.prediction import odometry, predict_box, steered, wheels
+from slamlab.filters.set_membership import BOR
+from slamlab.filters.set_membership.angle_intervals import angle_interval
+from slamlab.filters.set_membership.intervals import around, width
+from slamlab.filters.set_membership.prediction import odometry, predict_box, steered, wheels
 from slamlab.models.observation import h
 from slamlab.simulation.differential_drive import arc
 
-TITLE = "BOR: predict + 4 sightings, memory, width over the exact hull"
+TITLE = "BOR: predict + 4 observations, memory, width over the exact hull"
 SIZES = (10, 100, 1000, 10_000)
-MAK_TO = 1000  # landmarks up to which the MAK filter takes its turns
+MAK_TO = 1000  # largest map for which the MAK filter is timed, too
 QUICK_MAK_TO = 100
 BOUNDS = (0.05, 0.02)  # of range and bearing errors [m, rad]
 STILL = odometry((0.0, 0.0, 0.0), 1e-4, 1e-4)
@@ -30,9 +31,9 @@ BASE = 0.3  # of wheels and axles [m]
 
 
 def scene(N):
-    """Test scene: a filter that knows N objects' boxes, four of their ids, and how they look."""
+    """Make a test scene: a filter with N landmarks' boxes, four of their ids, and observations."""
     rng = np.random.default_rng(N)
-    side = np.sqrt(N)  # one object a square metre, however many there are
+    side = np.sqrt(N)  # one landmark per square metre
     objects = rng.uniform(-side / 2, side / 2, (N, 2))
     boxes = np.repeat(objects, 2, axis=1) + np.array([-0.05, 0.05, -0.05, 0.05])
     bor = BOR((-0.05, 0.05, -0.05, 0.05), (-0.03, 0.03), dict(enumerate(boxes)), N)
@@ -41,17 +42,17 @@ def scene(N):
 
 
 def times_of_size(N, quick):
-    """{method: median CPU time} of a map of N objects [s]."""
+    """Return {method: median CPU time} for a map of N landmarks [s]."""
     bor, ids, z = scene(N)
-    sights = list(zip(ids, z.tolist(), strict=True))
+    observed = list(zip(ids, z.tolist(), strict=True))
 
     def step():
         bor.predict(*STILL)
-        for i, seen in sights:
+        for i, seen in observed:
             bor.update(i, seen, BOUNDS)
 
     def associate():
-        for _, seen in sights:
+        for _, seen in observed:
             bor.overlapping(seen, BOUNDS)
 
     methods = {"slamlab": step, "slamlab, association of 4": associate}
@@ -67,7 +68,7 @@ def times_of_size(N, quick):
 
 
 def memory(N):
-    """Bytes that a map of N objects takes, objects added one by one."""
+    """Measure the memory [bytes] of a map to which N landmarks are added one by one."""
     tracemalloc.start()
     bor = BOR(np.zeros(4), np.zeros(2))
     for i in range(N):
@@ -78,13 +79,13 @@ def memory(N):
 
 
 def controls(drive, rng):
-    """What a drive was told, (2,), and by how much it may be off, (2,)."""
+    """Draw a control input (2,) and its bounds (2,)."""
     low, high = ((0.1, 0.1), (0.4, 0.4)) if drive == "wheels" else ((0.1, -0.5), (0.4, 0.5))
     return rng.uniform(low, high), rng.uniform(0.005, 0.05, 2)
 
 
 def bounds_of(drive, u, off):
-    """The motion's intervals, as the filter is given them."""
+    """Return the motion's intervals, the input of the filter."""
     if drive == "odometry":
         length, turn = u
         return odometry(arc(length - turn / 2, length + turn / 2, 1.0), *off)
@@ -93,7 +94,7 @@ def bounds_of(drive, u, off):
 
 
 def exact_motions(drive, u, heading):
-    """x, y and turn of many drives from the origin, each exact."""
+    """Compute x, y and turn of many motions from the origin exactly."""
     if drive == "steered":
         V, gamma = u.T
         return V * np.cos(heading + gamma), V * np.sin(heading + gamma), V / BASE * np.sin(gamma)
@@ -105,7 +106,8 @@ def exact_motions(drive, u, heading):
 
 
 def widths(drive, seed=0):
-    """Tightness: width of predictions over the hull of many drives, noise anywhere and at its ends.
+    """Measure tightness: widths of predictions relative to the hull of many motions with bounded
+    noise.
 
     Parameters
     ----------
@@ -114,7 +116,7 @@ def widths(drive, seed=0):
 
     Returns
     -------
-    (n, 2) of place and of turn
+    (n, 2) of position and of turn
     """
     rng, ratios = np.random.default_rng(seed), []
     for _ in range(PREDICTIONS):
@@ -131,7 +133,7 @@ def widths(drive, seed=0):
 
 
 def run(quick):
-    """Rows of times, of their growth, of memory and of widths."""
+    """Make rows for times, their growth, memory and widths."""
     times = {N: times_of_size(N, quick) for N in SIZES}
     rows = []
     for N, found in times.items():
@@ -143,11 +145,12 @@ def run(quick):
                 row(f"{method}: N = {N} over N = 10", growth, "times", "constant", 1 / growth)
             )
     each, few = memory(10_000) / 10_000, memory(1000) / 1000
-    rows.append(row("memory per object, N = 10 000", each, "B", "N = 1000", few / each))
+    rows.append(row("memory per landmark, N = 10 000", each, "B", "N = 1000", few / each))
     for drive in ("steered", "wheels", "odometry"):
         place, turn = widths(drive).mean(axis=0)
-        rows.append(row(f"{drive}: width of x and y", place, "times", "hull of samples", 1 / place))
-        rows.append(row(f"{drive}: width of the turn", turn, "times", "hull of samples", 1 / turn))
+        hull = "hull of sampled motions"
+        rows.append(row(f"{drive}: width of x and y", place, "times", hull, 1 / place))
+        rows.append(row(f"{drive}: width of the turn", turn, "times", hull, 1 / turn))
     return rows
 
 

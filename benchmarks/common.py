@@ -1,7 +1,7 @@
 """Benchmark utilities: interleaved timing, rows, the table, the command line.
 
-A benchmark is a module with ``TITLE`` and ``run(quick) -> rows``. Only ratios of one run mean
-anything: methods take turns, so that a busy machine is busy for all of them alike.
+A benchmark is a module with ``TITLE`` and ``run(quick) -> rows``. Compare only ratios from one run:
+methods are timed in turn, so that the machine's load affects all of them equally.
 """
 
 import argparse
@@ -14,13 +14,13 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
-# a method's turn lasts at least this long: in the first milliseconds it finds its code and data
-# gone from the caches, a tenth of the time of what is short [s]
+# shortest turn of a method: in its first milliseconds its code and data are not in the caches,
+# which would be a tenth of a short call's time [s]
 TURN = 0.02
 
 
 def row(name, value, unit, reference, ratio):
-    """One line of a benchmark's result.
+    """Make one row of a benchmark's result.
 
     Parameters
     ----------
@@ -39,12 +39,12 @@ def row(name, value, unit, reference, ratio):
 
 
 def cpu_times(methods, quick, seconds=6.0):
-    """Median CPU time of each method's call, the methods taking turns.
+    """Measure the median CPU time of each method's call; the methods take turns.
 
     Parameters
     ----------
-    methods : {name: function without arguments}; called before, to hold their results equal
-    quick : bool, an eighth of the time
+    methods : {name: function without arguments}, which the caller has checked for equal results
+    quick : bool, True for an eighth of the time
     seconds : float, CPU time to spend, at least three turns each (one when quick) [s]
 
     Returns
@@ -61,7 +61,7 @@ def cpu_times(methods, quick, seconds=6.0):
 
 
 def _turn(method):
-    """Mean CPU time of the calls of one turn [s]."""
+    """Measure the mean CPU time of the calls in one turn [s]."""
     start, calls = time.process_time(), 0
     while True:
         method()
@@ -72,13 +72,14 @@ def _turn(method):
 
 
 def speed_rows(label, times, compared=()):
-    """Rows that compare every method's time with the first one's, and some with others'.
+    """Make rows that compare each method's time with that of the first method, and some with
+    others.
 
     Parameters
     ----------
     label : str, the case
     times : {method: float} [s], the reference first
-    compared : (method, reference) pairs; those without a time are passed over
+    compared : (method, reference) pairs; those without a time are skipped
 
     Returns
     -------
@@ -108,36 +109,41 @@ def table(title, rows):
 
 
 class Missing(Exception):
-    """A peer that a benchmark compares with is not installed; the text says how to get it."""
+    """A peer of a benchmark is not installed; the message states how to install it."""
 
 
-def main(benchmarks, prog, argv=None):
-    """The command line of one benchmark or of several.
+def main(benchmarks, prog, argv=None, last=None):
+    """Run the command line of one or more benchmarks.
 
     Parameters
     ----------
     benchmarks : {title: run}, with run(quick) -> rows
-    prog : str, how it is called
+    prog : str, name of the command
     argv : list of str or None for the process' own
+    last : function of all rows, called after the last table
 
     Returns
     -------
-    int, exit code: 0 done, 2 a benchmark was left out or the file cannot be written
+    int, exit code: 0 done, 2 a benchmark was skipped or the file cannot be written
     """
     parser = argparse.ArgumentParser(prog=prog, description=", ".join(benchmarks))
-    parser.add_argument("--json", type=Path, metavar="FILE", help="write the rows there")
-    parser.add_argument("--quick", action="store_true", help="fewer repetitions: under 40 s each")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="file to write the rows to")
+    parser.add_argument(
+        "--quick", action="store_true", help="fewer repetitions, less than 40 s per benchmark"
+    )
     options = parser.parse_args(argv)
     rows, code = [], 0
     for title, run in benchmarks.items():
         try:
             found = run(options.quick)
         except Missing as error:
-            print(f"left out: {title}: {error}", file=sys.stderr)
+            print(f"skipped: {title}: {error}", file=sys.stderr)
             code = 2
             continue
         table(title, found)
         rows += found
+    if last is not None:
+        last(rows)
     if options.json:
         try:
             options.json.write_text(json.dumps(rows, indent=1) + "\n", encoding="utf-8")

@@ -1,4 +1,4 @@
-"""Decoding cost of one second of device bytes, and ten minutes of live SLAM through ports."""
+"""Cost of decoding one second of device data, and ten minutes of live SLAM through ports."""
 
 import sys
 
@@ -15,7 +15,7 @@ from slamlab.devices.rplidar.scan_stream import ScanStream
 
 TITLE = "devices: decoding one second of data (CPU time, one thread, methods taking turns)"
 BAUD = 115200
-READ = 0.01  # how often bytes are read: an adapter hands them on every 1 to 16 ms [s]
+READ = 0.01  # period of reading: an adapter delivers bytes every 1 to 16 ms [s]
 LIMITS = {AnswerType.SCAN: 1.0, AnswerType.EXPRESS: 3.0, AnswerType.ULTRA: 3.0}  # of a core [%]
 MODES = (
     ScanMode(0, "SCAN", 508e-6, 12.0, AnswerType.SCAN),
@@ -26,7 +26,7 @@ STATUS_RATE = 10  # eMIR's status frames a second
 
 
 def room(directions):
-    """Simulated distances of a room, with edges, empty places and noise [mm]."""
+    """Simulate distances of a room, with edges, missing ranges and noise [mm]."""
     rng = np.random.default_rng(0)
     walls = 1500 / np.maximum(np.abs(np.cos(np.radians(directions))), 0.3)
     walls[rng.random(len(walls)) < 0.05] = 0
@@ -34,7 +34,7 @@ def room(directions):
 
 
 def second(mode):
-    """The bytes of one second of a mode, in the pieces in which they are read."""
+    """Return one second of bytes in a scan mode, in chunks as they are read."""
     packer, size, ahead = ENCODERS[mode.answer_type]
     step, packets = 3600 * mode.period, []
     for at in range(0, int(1 / mode.period), size):
@@ -45,7 +45,8 @@ def second(mode):
 
 
 def decode(mode, pieces):
-    """From bytes to whole turns; the stream goes on from call to call."""
+    """Return a function that decodes one second of bytes to scans; each call continues the
+    stream."""
     stream, now = ScanStream(mode.answer_type, mode.period, BAUD, 0.0), 0.0
 
     def one_second():
@@ -60,13 +61,13 @@ def decode(mode, pieces):
 
 
 def frames():
-    """eMIR's status frames of one second."""
+    """Return a function that decodes one second of eMIR status frames."""
     framer, data = Framer(), Status(path=3, angle=-7).pack()
     return lambda: [Status.unpack(f) for _ in range(STATUS_RATE) for f in framer.feed(data)]
 
 
 def run(quick):
-    """Rows: share of a core, and how many times less than the limit."""
+    """Make rows with the share of a core and its ratio to the limit."""
     methods = {mode.answer_type: decode(mode, second(mode)) for mode in MODES}
     for mode in MODES:
         turns = sum(methods[mode.answer_type]() for _ in range(3))
@@ -74,9 +75,9 @@ def run(quick):
             raise AssertionError(f"{mode.name}: {turns} turns in three seconds, not about 30")
     times = cpu_times({**methods, "eMIR": frames()}, quick)
     rows = [
-        row(f"{m.name}: share of a core", 100 * times[m.answer], "%", f"limit {LIMITS[m.answer]} %",
-            LIMITS[m.answer] / 100 / times[m.answer])
+        row(f"{m.name}: share of a core", 100 * share, "%", f"limit {limit} %", limit / 100 / share)
         for m in MODES
+        for share, limit in [(times[m.answer_type], LIMITS[m.answer_type])]
     ]  # fmt: skip
     share = 100 * times["eMIR"]
     return [*rows, row("eMIR: share of a core", share, "%", "limit 1.0 %", 1.0 / share)]

@@ -1,7 +1,7 @@
-"""Films: how small one is beside the live view's own frames, and how fast a page finds a frame.
+"""Films: size relative to the live view's frames, and time to seek a frame.
 
-A film is replayed from its first frame to find another one, so the last one takes longest.
-Goals of a run of 290 frames: 100 kB for walls, 800 kB for clouds of points, 7 ms.
+To seek a frame, a film is replayed from its first frame, so the last frame takes longest. Goals for
+a run of 290 frames: 100 kB with walls, 800 kB with point clouds, and 7 ms.
 """
 
 import json
@@ -13,10 +13,11 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.common import Missing, main, row
-from slamlab import estimators, films, sources
-from slamlab.lecturing.headless import Unavailable, chromium
-from slamlab.views.live.frame_packing import FramePacker
-from slamlab.views.live.run_scene import run_scene
+from classroom.lecturing.headless import Unavailable, chromium
+from slamlab import estimators, sources
+from slamlab.live import films
+from slamlab.live.frame_packing import FramePacker
+from slamlab.live.run_scene import run_scene
 
 TITLE = "Films of runs, played in headless Chromium (wall time)"
 RUNS = {  # world, estimator, goal [kB]
@@ -64,7 +65,8 @@ def filmed(path, world, estimator):
 
 
 def run(quick):
-    """Rows of each run: size beside the live view's frames and the goal, time of a replay."""
+    """Make rows for each run: size relative to the live view's frames and the goal, and replay
+    time."""
     found = []
     with tempfile.TemporaryDirectory() as folder:
         try:

@@ -1,4 +1,4 @@
-"""Grading (autograding) a class: against nbgrader on the same notebooks, and a bare fork."""
+"""Grading (autograding) of a class, compared with nbgrader and with a bare fork."""
 
 import contextlib
 import ctypes
@@ -14,12 +14,12 @@ import time
 from pathlib import Path
 
 from benchmarks.common import Missing, main, row
-from slamlab.exercises import catalogue
-from slamlab.grading import notebooks, sandbox
-from slamlab.grading.forked_workers import named_modules
-from slamlab.grading.gradebook import Gradebook
-from slamlab.grading.worker_client import WorkerClient
-from slamlab.grading.worker_pool import WorkerPool
+from classroom.exercises import catalogue
+from classroom.grading import notebooks, sandbox
+from classroom.grading.forked_workers import modules_to_preload
+from classroom.grading.gradebook import Gradebook
+from classroom.grading.worker_client import WorkerClient
+from classroom.grading.worker_pool import WorkerPool
 
 TITLE = "Grading: a class with five tasks each, CPU and wall time of whole commands in turns"
 ROOT = Path(__file__).resolve().parents[1]
@@ -38,12 +38,12 @@ SHARED_CLASS = 6
 
 
 def derived(folder):
-    """The text of the exercise's notebook in a folder of the project."""
+    """Return the text of the exercise's notebook in a folder of the project."""
     return (ROOT / folder / f"ex{NAME}.ipynb").read_text("utf-8")
 
 
 def make_submissions(folder, count):
-    """Make the submissions of a class: right solutions, no two alike in any cell of their own."""
+    """Make the submissions of a class: right solutions whose cells all differ."""
     text = derived("solutions")
     for i in range(count):
         place = folder / f"s{i:04}" / NAME
@@ -53,7 +53,7 @@ def make_submissions(folder, count):
 
 
 def timed(words, cwd):
-    """(CPU, wall) seconds of a command and all it starts."""
+    """Measure the CPU and wall time [s] of a command and its child processes."""
     path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
     ctypes.CDLL(None).prctl(SUBREAPER, 1, 0, 0, 0)
     before, begin = resource.getrusage(resource.RUSAGE_CHILDREN), time.monotonic()
@@ -72,11 +72,13 @@ def timed(words, cwd):
 
 
 def nbgrader(count):
-    """One class by nbgrader: its course is made first, which is not timed."""
+    """Grade one class by nbgrader; the time to create its course does not count."""
     try:
         import nbgrader  # noqa: F401
     except ImportError:
-        raise Missing("compares with nbgrader: python -m pip install nbgrader") from None
+        raise Missing(
+            "nbgrader, the peer, is not installed: python -m pip install nbgrader"
+        ) from None
     with tempfile.TemporaryDirectory() as folder:
         course = Path(folder)
         (course / "nbgrader_config.py").write_text(CONFIG)
@@ -90,7 +92,7 @@ def nbgrader(count):
 
 
 def slamlab(count, jobs=1):
-    """One class by ``slamlab grade``, at the strict level where it can be had."""
+    """Grade one class by ``slamlab grade``, at the strictest isolation level available."""
     with tempfile.TemporaryDirectory() as folder:
         make_submissions(Path(folder, "class"), count)
         words = [sys.executable, "-c", "import sys; from slamlab.cli import main; sys.exit(main())"]
@@ -101,21 +103,22 @@ def slamlab(count, jobs=1):
             records = book.latest_attempts()
     full = catalogue.exercise("04").points
     if len(records) != count or any(record.score != full for record in records):
-        raise Missing("a right solution did not get full marks: nothing to compare")
+        raise Missing("a right solution did not get full marks, so there is nothing to compare")
     return spent, [record.seconds for record in records]
 
 
 def isolation_level():
-    """Isolation level of the sandbox that can be had here."""
-    from slamlab.grading import isolation
+    """Return the strictest isolation level available on this system."""
+    from classroom.grading import isolation
 
     return sandbox.STRICT if isolation.missing_requirement(sandbox.STRICT) is None else sandbox.NONE
 
 
 def fork_floor(count):
-    """Lower bound: CPU of a forked worker that runs the cells and is driven by nobody [s]."""
+    """Measure a lower bound: Measure the CPU time of a forked worker that only runs the cells
+    [s]."""
     data = derived("solutions").encode()
-    content, named = notebooks.parse(data), named_modules([data])
+    content, named = notebooks.parse(data), modules_to_preload([data])
     exercise, spent = catalogue.exercise("04"), []
     with WorkerPool(isolation_level(), preload=named) as workers:
         for _ in range(count):
@@ -126,7 +129,7 @@ def fork_floor(count):
 
 
 def memory_of(process, stop, found):
-    """Follow the memory of a process and all below it, shared pages counted once [bytes]."""
+    """Record the memory of a process and its descendants [bytes]; shared pages count once."""
     while not stop.wait(0.25):
         children = {}
         for path in Path("/proc").glob("[0-9]*/stat"):
@@ -148,7 +151,7 @@ def memory_of(process, stop, found):
 
 
 def thousand():
-    """Wall time [s] and memory [bytes] of a thousand submissions on two cores."""
+    """Measure wall time [s] and memory [bytes] of a thousand submissions on two cores."""
     stop, found = threading.Event(), []
     watcher = threading.Thread(target=memory_of, args=(os.getpid(), stop, found))
     watcher.start()
@@ -161,7 +164,7 @@ def thousand():
 
 
 def run(quick):
-    """Rows of CPU and wall time, of stages and of the floor."""
+    """Make rows for CPU and wall time, stages and the lower bound."""
     turns = 1 if quick else 3
     spent = {name: {size: [] for size in sizes} for name, sizes in SIZES.items()}
     shared, stages = [], []
@@ -204,5 +207,5 @@ def run(quick):
 
 if __name__ == "__main__":
     if not shutil.which("bwrap"):
-        print("bubblewrap is not here: graded without walls", file=sys.stderr)
+        print("bubblewrap is not installed: grading without the strict sandbox", file=sys.stderr)
     sys.exit(main({TITLE: run}, "python -m benchmarks.grading"))

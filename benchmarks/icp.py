@@ -1,9 +1,9 @@
-"""Scan matching (ICP) against the thesis' ICP, and small_gicp and Open3D where installed.
+"""Scan matching (ICP), compared with the thesis' ICP, and with small_gicp and Open3D if installed.
 
-What a match cannot go below is told by its parts. With clouds as they come, about half of it
-goes into the lines that are fitted to both; a SLAM fits them once a scan. Its half a dozen looks at
-all pairs, made by bearing, cost together what a KD-tree costs to be built and asked once; the
-thesis' way builds and asks one in each of its dozens of rounds.
+The parts of a match give a lower bound on its time. With unprocessed point clouds, about half of
+the time is spent on fitting lines to both clouds; SLAM fits them once per scan. About six searches
+for all correspondences by bearing cost as much as building and querying a k-d tree once. The
+thesis' ICP builds and queries a k-d tree in each of its dozens of iterations.
 """
 
 import sys
@@ -16,7 +16,7 @@ from scipy.spatial import cKDTree
 from benchmarks import icp_peers
 from benchmarks.common import cpu_times, main, row, speed_rows
 from slamlab.geometry import between, transform
-from slamlab.scanmatching import match, point_to_line, point_to_point, rigid_fit, surface
+from slamlab.scanmatching import match, point_to_line, point_to_point, preprocess, rigid_fit
 from slamlab.scanmatching.correspondences import find_correspondences
 from slamlab.simulation.range_scanners import RPLIDAR_A2
 from slamlab.sources.simulated_robot import POLYGON_WRONG_STEPS, simulation, turn_then_drive
@@ -31,8 +31,9 @@ BASINS = {  # of convergence: turns [°] and ways [m] of the guess from the trut
 }
 
 
-def thesis_way(neighbours, source, target, guess):
-    """ICP as the thesis' listing goes about it: fit scikit-learn's search, ask it, every round."""
+def thesis_icp(neighbours, source, target, guess):
+    """Run ICP as in the thesis' listing: build and query scikit-learn's search tree in each
+    iteration."""
     moved, last = transform(guess, source), 0.0
     for _ in range(500):
         search = neighbours(n_neighbors=1).fit(target)
@@ -45,7 +46,8 @@ def thesis_way(neighbours, source, target, guess):
 
 
 def scan_pairs(count, noise=NOISE):
-    """Pairs of scans with their guess and true motion: (source, target, guess, true)."""
+    """Make pairs of scans with the initial guess and the true motion: (source, target, guess,
+    true)."""
     guesses, found = turn_then_drive(POLYGON_WRONG_STEPS), []
     lidar = replace(RPLIDAR_A2, range_error=noise)
     for seed in range(count):
@@ -59,20 +61,20 @@ def scan_pairs(count, noise=NOISE):
 
 
 def errors(method, cases):
-    """(n, 2) distance and turn of a method's poses from the true ones [m, rad]."""
+    """Return the position and heading errors (n, 2) of a method's poses [m, rad]."""
     e = np.array([between(true, method(*clouds, guess)) for *clouds, guess, true in cases])
     return np.column_stack([np.hypot(e[:, 0], e[:, 1]), np.abs(e[:, 2])])
 
 
 def share(found, limits):
-    """Share of errors within limits [1]."""
+    """Return the share of errors within limits [1]."""
     return float((found < limits).all(axis=1).mean())
 
 
 def run(quick):
-    """Rows of time, of error, of success, and of the basin."""
+    """Make rows for time, error, success rate and basin of convergence."""
     methods = {
-        "thesis' way": partial(thesis_way, icp_peers.sklearn_neighbours()),
+        "thesis' ICP": partial(thesis_icp, icp_peers.sklearn_neighbours()),
         "point to point": lambda *case: point_to_point(*case, tolerance=TOLERANCE).pose,
         "point to line": lambda *case: point_to_line(*case).pose,
         "match": lambda *case: match(*case).pose,
@@ -80,7 +82,7 @@ def run(quick):
     }
     cases = scan_pairs(4 if quick else 30)
     found = {name: errors(method, cases) for name, method in methods.items()}
-    np.testing.assert_allclose(found["point to point"], found["thesis' way"], atol=1e-3)
+    np.testing.assert_allclose(found["point to point"], found["thesis' ICP"], atol=1e-3)
     return [
         *time_rows(methods, cases[:6], quick),
         *part_rows(cases[:6], quick),
@@ -91,28 +93,29 @@ def run(quick):
 
 
 def time_rows(methods, cases, quick):
-    """CPU time of a match; of ``match`` also with both clouds made ready before, as SLAM has it."""
-    ready = [(surface(source), surface(target), *rest) for source, target, *rest in cases]
+    """Make rows for the CPU time of a match; for ``match`` also with preprocessed clouds, as in
+    SLAM."""
+    ready = [(preprocess(source), preprocess(target), *rest) for source, target, *rest in cases]
     calls = {name: partial(match_all, method, cases) for name, method in methods.items()}
-    calls["match, clouds made ready"] = partial(match_all, methods["match"], ready)
+    calls["match, clouds preprocessed"] = partial(match_all, methods["match"], ready)
     times = cpu_times(calls, quick, seconds=20.0)
     times = {name: t / len(cases) for name, t in times.items()}
-    peers = [("match", name) for name in methods if name not in ("thesis' way", "match")]
+    peers = [("match", name) for name in methods if name not in ("thesis' ICP", "match")]
     return speed_rows("a match", times, peers)
 
 
 def part_rows(cases, quick):
-    """CPU time of a match's parts, and the tree that each round of point to point asks."""
-    ready = [(surface(source), surface(target), guess) for source, target, guess, _ in cases]
-    rounds = [match(*case).rounds for case in ready]
+    """Make rows for the CPU time of a match's parts, and for the k-d tree of point-to-point ICP."""
+    ready = [(preprocess(source), preprocess(target), guess) for source, target, guess, _ in cases]
+    iterations = [match(*case).iterations for case in ready]
 
     def surfaces():
         for source, target, *_ in cases:
-            surface(source)
-            surface(target)
+            preprocess(source)
+            preprocess(target)
 
-    def looks():
-        for case, count in zip(ready, rounds, strict=True):
+    def searches():
+        for case, count in zip(ready, iterations, strict=True):
             for _ in range(count + 1):
                 find_correspondences(*case)
 
@@ -123,54 +126,55 @@ def part_rows(cases, quick):
     calls = {
         "match": partial(match_all, match, cases),
         "fitting lines to both": surfaces,
-        "looking at all pairs": looks,
-        "building a tree, asking it once": tree,
+        "searching correspondences": searches,
+        "building a k-d tree, one query": tree,
     }
     times = {name: t / len(cases) for name, t in cpu_times(calls, quick).items()}
     return speed_rows("parts of a match", times)
 
 
 def error_rows(found):
-    """Median errors of position and of heading."""
+    """Make rows for the median errors of position and heading."""
     rows = []
     for label, column, unit, scale in (
         ("position error", 0, "mm", 1e3),
         ("heading error", 1, "deg", np.degrees(1)),
     ):
         median = {name: scale * np.median(e[:, column]) for name, e in found.items()}
-        reference = median["thesis' way"]
+        reference = median["thesis' ICP"]
         rows += [
-            row(f"{label}: {name}", m, unit, "thesis' way", reference / m)
+            row(f"{label}: {name}", m, unit, "thesis' ICP", reference / m)
             for name, m in median.items()
         ]
     return rows
 
 
 def success_rows(methods, quick):
-    """Shares of results within 15 mm and 0.5° at 1 % noise."""
+    """Make rows for the shares of results within 15 mm and 0.5° at 1 % noise."""
     cases = scan_pairs(7 if quick else 200, HARD)
     shares = {"match": share(errors(methods["match"], cases), TIGHT)}
     few = cases[: 21 if quick else 60]
-    shares["thesis' way"] = share(errors(methods["thesis' way"], few), TIGHT)
+    shares["thesis' ICP"] = share(errors(methods["thesis' ICP"], few), TIGHT)
     return [
         row(f"tight at 1 % noise: {name}", 100 * s, "%", "all", s) for name, s in shares.items()
     ]
 
 
 def basin_rows(methods, cases, quick):
-    """Basin of convergence: shares of far guesses that converge, their cost beside a near one."""
+    """Make rows for the basin of convergence: shares of distant guesses that converge, and their
+    cost."""
     tried = {
         "point to point": methods["point to point"],
         "match, no search": lambda *case: match(*case, search=0).pose,
         "match": methods["match"],
-        "match, search asked for": lambda *case: match(*case, search=np.pi).pose,
+        "match, with search": lambda *case: match(*case, search=np.pi).pose,
     }
     rows = []
     for label, (turns, ways) in BASINS.items():
         far = perturbed_guesses(cases, turns, ways, 1 if quick else 12)
         for name, method in tried.items():
-            home = share(errors(method, far), FOUND)
-            rows.append(row(f"basin {label}: {name}", 100 * home, "%", "all", home))
+            converged = share(errors(method, far), FOUND)
+            rows.append(row(f"basin {label}: {name}", 100 * converged, "%", "all", converged))
         calls = {name: partial(match_all, tried[name], far[:24]) for name in ("match", *tried)}
         times = {name: t / 24 for name, t in cpu_times(calls, quick, seconds=6.0).items()}
         rows += speed_rows(f"basin {label}", times)
@@ -178,7 +182,7 @@ def basin_rows(methods, cases, quick):
 
 
 def perturbed_guesses(cases, turns, ways, each_cell):
-    """Scan pairs with guesses perturbed so far off the truth, to either side, in any direction."""
+    """Make scan pairs whose guesses differ from the truth by the given distance and turn."""
     rng, found = np.random.default_rng(0), []
     for turn in np.radians(turns):
         for way in ways:

@@ -1,4 +1,5 @@
-"""Peer scan matchers (small_gicp, Open3D), set to their best in the plane, where installed."""
+"""Peer scan matchers (small_gicp, Open3D), if installed, with their best settings for planar
+scans."""
 
 import sys
 
@@ -13,30 +14,31 @@ MAX_ITERATIONS = 100  # of ICP
 
 
 def sklearn_neighbours():
-    """scikit-learn's NearestNeighbors, which the thesis' way needs."""
+    """Import scikit-learn's NearestNeighbors, which the thesis' ICP needs."""
     try:
         from sklearn.neighbors import NearestNeighbors
     except ImportError:
         raise Missing(
-            "compares with scikit-learn, which is not here: python -m pip install scikit-learn"
+            "scikit-learn, the peer, is not installed: python -m pip install scikit-learn"
         ) from None
     return NearestNeighbors
 
 
 def peers():
-    """{name: method(source, target, guess) -> pose} of those that are here; the others are named
-    on the error stream."""
+    """Return {name: method(source, target, guess) -> pose} of installed peers; print the missing
+    ones to stderr."""
     found = {}
     for package, methods in (("small_gicp", small_gicp), ("open3d", open3d)):
         try:
             found |= methods()
         except ImportError as error:
-            print(f"left out: {package}: {error}: python -m pip install {package}", file=sys.stderr)
+            print(f"skipped: {package}: {error}: python -m pip install {package}", file=sys.stderr)
     return found
 
 
 def small_gicp():
-    """small_gicp's ICP and GICP; its own normals need a third dimension: no point to line."""
+    """Return small_gicp's ICP and GICP, without point-to-line ICP, because its normals need a third
+    dimension."""
     import small_gicp as package
 
     def method(kind):
@@ -59,7 +61,7 @@ def small_gicp():
 
 
 def open3d():
-    """Open3D's ICP, point to point and, with our normals, point to line."""
+    """Return Open3D's point-to-point ICP and, with our normals, point-to-line ICP."""
     from open3d import geometry, utility
     from open3d.pipelines import registration
 
@@ -92,12 +94,12 @@ def open3d():
 
 
 def solid(points):
-    """(n, 3) the points in the plane z = 0."""
+    """Return the points (n, 3) in the plane z = 0."""
     return np.column_stack([points, np.zeros(len(points))])
 
 
 def matrix_of(pose):
-    """(4, 4) the pose as a homogeneous matrix."""
+    """Return a pose as a homogeneous matrix (4, 4)."""
     c, s = np.cos(pose[2]), np.sin(pose[2])
     T = np.eye(4)
     T[:2, :2], T[:2, 3] = [[c, -s], [s, c]], pose[:2]
@@ -105,5 +107,5 @@ def matrix_of(pose):
 
 
 def planar(T):
-    """(3,) the pose of a homogeneous matrix in space."""
+    """Return the pose (3,) of a homogeneous matrix (4, 4)."""
     return from_matrix(T[np.ix_([0, 1, 3], [0, 1, 3])])

@@ -1,4 +1,4 @@
-"""Line extraction (walls in a scan): recall, false positives, CPU time; RANSAC of scikit-learn."""
+"""Line extraction, compared with scikit-learn's RANSAC: recall, false positives and CPU time."""
 
 import sys
 from functools import partial
@@ -6,10 +6,10 @@ from functools import partial
 import numpy as np
 
 from benchmarks.common import Missing, cpu_times, main, row, speed_rows
-from slamlab import worlds
 from slamlab.evaluation import precision_metres, recall_metres
 from slamlab.landmarks.line_fitting import Line
 from slamlab.landmarks.ransac import THESIS, Ransac, lines
+from slamlab.simulation import worlds
 from slamlab.sources.simulated_robot import THESIS_LIDAR as LIDAR
 
 TITLE = "Walls in scans of 400 beams, 1 % noise (CPU time, methods taking turns)"
@@ -19,20 +19,20 @@ OURS, SMOLEC, PEER = "slamlab", "thesis' parameters", "scikit-learn, line by lin
 
 
 def regressor():
-    """scikit-learn's RANSACRegressor, which only this benchmark needs."""
+    """Import scikit-learn's RANSACRegressor, which only this benchmark needs."""
     try:
         from sklearn.linear_model import RANSACRegressor
     except ImportError:
         raise Missing(
-            "compares with scikit-learn, which is not here: python -m pip install scikit-learn"
+            "scikit-learn, the peer, is not installed: python -m pip install scikit-learn"
         ) from None
     return RANSACRegressor
 
 
 def line_by_line(ransac, scan, rng):
-    """Walls by a general RANSAC: the best line y = a x + b, take its points away, again.
+    """Extract lines by a general RANSAC: find the best line y = a x + b, remove its points, repeat.
 
-    It knows nothing of neighbours or of noise that grows; its band is the noise at 3 m.
+    It ignores neighbourhoods and range-dependent noise; its inlier band is the noise at 3 m.
     """
     points, found = scan.points(), []
     while len(points) >= 21:
@@ -53,7 +53,7 @@ def line_by_line(ransac, scan, rng):
 
 
 def scenes(name, count):
-    """Test scenes: scans from free places of a world: (world, pose, scan)."""
+    """Make test scenes, scans at random free positions of a world: (world, pose, scan)."""
     world, rng, found = worlds.by_name(name), np.random.default_rng(1), []
     corners = world.walls.reshape(-1, 2)
     while len(found) < count:
@@ -66,7 +66,8 @@ def scenes(name, count):
 
 
 def shares(method, cases):
-    """Recall and false share: of the wall metres seen, those found; of those found, those wrong."""
+    """Return the recall, the share of visible wall length that was found, and the false share of
+    line length."""
     sums = np.zeros(4)
     for world, pose, scan in cases:
         walls = method(scan, np.random.default_rng(0))
@@ -76,7 +77,7 @@ def shares(method, cases):
 
 
 def run(quick):
-    """Rows of what is found and of time."""
+    """Make rows for recall, false share and time."""
     methods = {
         SMOLEC: lambda scan, rng: lines(scan, LIDAR.model, rng, THESIS),
         OURS: lambda scan, rng: lines(scan, LIDAR.model, rng, Ransac()),
@@ -105,7 +106,7 @@ def run(quick):
 
 
 def each(method, cases):
-    """Find the walls of every scan once."""
+    """Extract the lines of every scan once."""
     for _, _, scan in cases:
         method(scan, np.random.default_rng(0))
 

@@ -1,6 +1,7 @@
-"""EKF-SLAM (the MAK filter) against one copy of P, the textbook's dense EKF and filterpy's.
+"""EKF-SLAM (the MAK filter), compared with one copy of P, a textbook's dense EKF and filterpy's
+EKF.
 
-A step is one prediction and one scan of four known landmarks; P holds 3 + 2N rows of float64.
+A step is one prediction and one scan of four known landmarks; P has 3 + 2N rows of float64.
 """
 
 import sys
@@ -10,9 +11,9 @@ from filterpy.kalman import ExtendedKalmanFilter
 
 from benchmarks.common import cpu_times, main, row, speed_rows
 from slamlab import models
-from slamlab.filters.compressed_ekf import CompressedMAK
+from slamlab.filters.compressed_ekf import CompressedEKF
 from slamlab.filters.data_association import nearest_neighbours
-from slamlab.filters.mak import MAK
+from slamlab.filters.ekf_slam_filter import MAK
 from slamlab.geometry import wrap
 from slamlab.models import jacobians
 
@@ -31,7 +32,8 @@ Q, R = np.diag([1e-6, 1e-6, 1e-7]), np.diag([0.01, 0.001])  # process, measureme
 
 
 def scene(N):
-    """Test scene: a filter of N landmarks, four of their ids, and how they look from its pose."""
+    """Make a test scene: a filter with N landmarks, the ids of four landmarks, and their
+    observation."""
     rng = np.random.default_rng(N)
     mak = MAK([0.3, -0.2, 0.4], np.diag([0.02, 0.03, 0.01]), N)
     mak.add(range(N), np.column_stack([rng.uniform(1, 20, N), rng.uniform(-3, 3, N)]), R)
@@ -40,7 +42,7 @@ def scene(N):
 
 
 def h_and_H(x, ids):
-    """The dense observation of four landmarks: h (8,) and H (8, n)."""
+    """Return the dense observation of four landmarks: h (8,) and H (8, n)."""
     H, z = np.zeros((2 * len(ids), len(x))), np.empty((len(ids), 2))
     for k, i in enumerate(ids):
         own = slice(3 + 2 * i, 5 + 2 * i)
@@ -51,21 +53,21 @@ def h_and_H(x, ids):
 
 
 def residual(z, expected):
-    """Innovation z − h, its bearings wrapped."""
+    """Return the innovation z − h with wrapped bearings."""
     v = z - expected
     v[1::2] = wrap(v[1::2])
     return v
 
 
 def dense_noise(n, m):
-    """Process noise Q of the whole state (n, n), measurement noise R of the whole scan (2m, 2m)."""
+    """Return process noise Q of the state (n, n) and measurement noise R of the scan (2m, 2m)."""
     whole = np.zeros((n, n))
     whole[:3, :3] = Q
     return whole, np.kron(np.eye(m), R)
 
 
 class Textbook:
-    """Textbook dense EKF: whole matrices, P ← (I − K H) P."""
+    """A textbook's dense EKF: whole matrices, P ← (I − K H) P."""
 
     def __init__(self, mak, ids, z):
         self.x, self.P, self.ids, self.z = mak.x.copy(), mak.P, ids, z.ravel()
@@ -81,7 +83,7 @@ class Textbook:
 
 
 class Filterpy:
-    """filterpy's EKF, which knows nothing of landmarks."""
+    """filterpy's EKF, which is not specific to landmarks."""
 
     def __init__(self, mak, ids, z):
         self.ids, self.z = ids, z.ravel()
@@ -104,11 +106,12 @@ class Filterpy:
 
 
 def compressed_round(mak):
-    """Compressed EKF, one region: focus, its steps, global update; one step costs its share."""
+    """Time the compressed EKF in one region: focus, steps and global update, divided by the
+    steps."""
     rng = np.random.default_rng(1)
     region = rng.choice(mak.ids, REGION, replace=False).tolist()
     z = models.h(mak.pose, mak.landmarks()[region[:4]])
-    compressed = CompressedMAK(mak)
+    compressed = CompressedEKF(mak)
 
     def live():
         compressed.focus(region)
@@ -121,7 +124,7 @@ def compressed_round(mak):
 
 
 def same_first_step(mak, ids, z, peers):
-    """Hold the methods' first steps equal, so that all are timed at the same work."""
+    """Check that the methods' first steps agree, so that all are timed for the same work."""
     mak.predict(mak.pose, Q)
     mak.update(ids, z, R)
     for name, peer in peers.items():
@@ -130,7 +133,7 @@ def same_first_step(mak, ids, z, peers):
 
 
 def times_of_size(N, quick):
-    """{method: median CPU time} of a map of N landmarks [s]."""
+    """Return {method: median CPU time} for a map of N landmarks [s]."""
     mak, ids, z = scene(N)
     peers = {}
     filterpy_to = QUICK_FILTERPY if quick else FILTERPY
@@ -160,13 +163,13 @@ def times_of_size(N, quick):
 
 
 def exponent(times, method):
-    """Growth exponent b of time = a Nᵇ, fitted where arithmetic rules."""
+    """Fit the growth exponent b of time = a Nᵇ for sizes at which arithmetic dominates."""
     sizes = [N for N in SIZES if N >= GROWTH_FROM]
     return np.polyfit(np.log(sizes), np.log([times[N][method] for N in sizes]), 1)[0]
 
 
 def run(quick):
-    """Rows of all sizes, each against one copy of P and slamlab against its peers, and growth."""
+    """Make rows for all sizes, relative to one copy of P and to the peers, and for the growth."""
     times = {N: times_of_size(N, quick) for N in SIZES}
     rows = []
     for N, found in times.items():

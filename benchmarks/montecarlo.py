@@ -1,6 +1,6 @@
-"""Monte Carlo localisation (particle filter) against a plain loop, and resampling alone.
+"""Monte Carlo localisation (particle filter), compared with a plain loop; and resampling alone.
 
-A step moves every sample with its own noise, weighs it by 20 known landmarks and draws anew.
+A step moves every particle with its own noise, weights it by 20 known landmarks and resamples.
 """
 
 import math
@@ -11,15 +11,15 @@ from filterpy.monte_carlo import resampling as filterpy
 
 from benchmarks.common import cpu_times, main, speed_rows
 from slamlab import models
-from slamlab.filters.montecarlo import likelihood
-from slamlab.filters.montecarlo.motion_sampling import sample_motion
-from slamlab.filters.montecarlo.resampling import multinomial, systematic
-from slamlab.filters.montecarlo.weights import normalise
+from slamlab.filters.particle_filters import likelihood
+from slamlab.filters.particle_filters.importance_weights import normalise
+from slamlab.filters.particle_filters.motion_sampling import sample_motion
+from slamlab.filters.particle_filters.resampling import multinomial, systematic
 from slamlab.geometry import wrap
 from slamlab.models import noise
 from slamlab.models.parameters import RobotModel
 
-TITLE = "Monte Carlo localisation: move, weigh by 20 landmarks, draw (CPU time, one thread)"
+TITLE = "Monte Carlo localisation: predict, weight by 20 landmarks, resample (CPU time, one thread)"
 SIZES = (100, 1000, 10_000)
 LANDMARKS = 20
 ROBOT, ODOMETRY = RobotModel(slip=0.01), np.array([0.2, 0.01, 0.05])
@@ -27,7 +27,7 @@ R = np.diag([0.05**2, 0.03**2])
 
 
 def scene(n):
-    """Test scene: samples (particles) round a pose, a map, and its observation."""
+    """Make a test scene: particles around a pose, a map, and an observation."""
     rng = np.random.default_rng(n)
     x = rng.normal([1, 2, 0.5], [0.2, 0.2, 0.1], (n, 3))
     p = rng.uniform(-8, 8, (LANDMARKS, 2))
@@ -36,7 +36,7 @@ def scene(n):
 
 
 def slamlab_step(x, p, z, rng):
-    """The package's way, all samples and landmarks at once."""
+    """Do a step with slamlab, for all particles and landmarks at once."""
     x = sample_motion(x, ODOMETRY, ROBOT, rng)
     noises = np.broadcast_to(R, (len(p), 2, 2))
     weights, _ = normalise(likelihood.of_scan(x, p, z, noises))
@@ -44,7 +44,7 @@ def slamlab_step(x, p, z, rng):
 
 
 def textbook_step(x, p, z, rng):
-    """numpy as it is first written: an array of samples × landmarks for each quantity."""
+    """Do a step with straightforward NumPy: one array of samples × landmarks for each quantity."""
     x = sample_motion(x, ODOMETRY, ROBOT, rng)
     v = z - models.h(x[:, None], p)
     v[..., 1] = wrap(v[..., 1])
@@ -54,7 +54,7 @@ def textbook_step(x, p, z, rng):
 
 
 def loop_weights(x, p, z):
-    """Log weights by a plain loop in Python."""
+    """Compute log weights by a plain loop in Python."""
     var_r, var_b, tau, pi = R[0, 0], R[1, 1], math.tau, math.pi
     marks = [(*place, *seen) for place, seen in zip(p.tolist(), z.tolist(), strict=True)]
     logs = []
@@ -70,7 +70,7 @@ def loop_weights(x, p, z):
 
 
 def loop_step(x, p, z, rng):
-    """A step in plain Python: a loop over samples, in it one over landmarks."""
+    """Do a step in plain Python: a loop over particles that contains a loop over landmarks."""
     d, turn = math.hypot(*ODOMETRY[:2]), ODOMETRY[2]
     direction = math.atan2(ODOMETRY[1], ODOMETRY[0])
     C = noise.C_odometry((d, turn), ROBOT.distance_error, ROBOT.turn_error, ROBOT.turn_per_metre)
@@ -91,7 +91,7 @@ def loop_step(x, p, z, rng):
 
 
 def loop_resample(rows, weights, u):
-    """Low-variance resampling in plain Python."""
+    """Do systematic (low-variance) resampling in plain Python."""
     n, total = len(rows), sum(weights)
     drawn, edge, i = [], weights[0], 0
     for k in range(n):
@@ -103,7 +103,7 @@ def loop_resample(rows, weights, u):
 
 
 def same_weights(x, p, z):
-    """Hold the methods' weights equal, so that all are timed at the same work."""
+    """Check that the methods' weights agree, so that all are timed for the same work."""
     noises = np.broadcast_to(R, (len(p), 2, 2))
     ours, _ = normalise(likelihood.of_scan(x, p, z, noises))
     loop, _ = normalise(loop_weights(x, p, z))
@@ -111,13 +111,13 @@ def same_weights(x, p, z):
 
 
 def times_of_size(n, quick):
-    """{method: median CPU time} of a step of n samples [s]."""
+    """Return {method: median CPU time} of a step with n particles [s]."""
     x, p, z = scene(n)
     same_weights(x, p, z)
     rng = np.random.default_rng(0)
     steps = {
         "plain Python loop": loop_step,
-        "numpy + filterpy's comb": textbook_step,
+        "numpy + filterpy's resampling": textbook_step,
         "slamlab": slamlab_step,
     }
     return cpu_times(
@@ -126,7 +126,7 @@ def times_of_size(n, quick):
 
 
 def draws_of(n, quick):
-    """{method: median CPU time} of n draws by n weights [s]."""
+    """Return {method: median CPU time} of drawing n samples from n weights [s]."""
     rng = np.random.default_rng(n)
     weights = rng.dirichlet(np.ones(n))
     return cpu_times(
@@ -143,11 +143,11 @@ def draws_of(n, quick):
 
 
 def run(quick):
-    """Rows of all sizes: steps against the loop, draws against filterpy's."""
+    """Make rows for all sizes: steps relative to the loop, resampling relative to filterpy."""
     rows = []
     for n in SIZES:
-        compared = [("slamlab", "numpy + filterpy's comb")]
-        rows += speed_rows(f"{n} samples", times_of_size(n, quick), compared)
+        compared = [("slamlab", "numpy + filterpy's resampling")]
+        rows += speed_rows(f"{n} particles", times_of_size(n, quick), compared)
     compared = [("slamlab multinomial", "filterpy multinomial")]
     return rows + speed_rows(f"{SIZES[-1]} draws", draws_of(SIZES[-1], quick), compared)
 

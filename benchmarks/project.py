@@ -1,8 +1,8 @@
-"""The final project's score between seeds: the same code in other worlds of the same families.
+"""Standard deviation of the final project's score between seeds, in worlds of the same families.
 
-Worlds are drawn each from a stream of its own, so any world of a family and length may stand in a
-set for any other. From the points of all worlds sets are put together by chance, and scored: the
-standard deviation of the scores is that between seeds, known better than from the seeds alone.
+Each world is drawn from its own random stream, so any world of a family and length may be in a set
+for any other. Random sets are drawn from all worlds and scored. The standard deviation of their
+scores estimates that between seeds more precisely than the seeds alone.
 """
 
 import sys
@@ -11,15 +11,15 @@ from concurrent.futures import ProcessPoolExecutor
 import numpy as np
 
 from benchmarks.common import main, row
+from classroom.contest.ranking import scores
+from classroom.project.baselines import BASELINES
+from classroom.project.estimator_runs import Budget, run_estimator
+from classroom.project.scores import prepare
+from classroom.project.world_generation import WORLDS_PER_FAMILY, generate_worlds
+from classroom.project.world_parameters import WORLD_FAMILIES
 from course.project.solution import MySlam
-from slamlab.contest.ranking import scores
-from slamlab.project.baselines import BASELINES
-from slamlab.project.drawing import WORLDS_PER_FAMILY, draw_family
-from slamlab.project.driving import Budget, drive
-from slamlab.project.scores import prepare
-from slamlab.project.world_families import FAMILIES
 
-TITLE = "Project: score between seeds (points of 100; asked is a standard deviation below 3)"
+TITLE = "Project: score between seeds (points of 100; goal: a standard deviation below 3)"
 SEEDS, QUICK_SEEDS = 20, 2
 ASKED = 3.0  # points
 SETS = 4000  # put together by chance
@@ -27,26 +27,27 @@ SOLUTION = "solution"
 
 
 def points_of_seed(seed):
-    """What the baselines and the solution score in the worlds of a seed.
+    """Score the baselines and the solution in the worlds of a seed.
 
     Returns
     -------
     {who: (families, worlds)} points
     """
     found = {who: [] for who in (*BASELINES, SOLUTION)}
-    for family in FAMILIES.values():
-        for world in draw_family(family, seed, WORLDS_PER_FAMILY):
-            arena = prepare(world)
-            mine = drive(MySlam, world, Budget(*[np.inf] * 4))
-            for who, driven in (arena.drives | {SOLUTION: mine}).items():
-                found[who].append(arena.judge(driven).points)
+    for family in WORLD_FAMILIES.values():
+        for world in generate_worlds(family, seed, WORLDS_PER_FAMILY):
+            prepared_world = prepare(world)
+            mine = run_estimator(MySlam, world, Budget(*[np.inf] * 4))
+            for who, run in (prepared_world.runs | {SOLUTION: mine}).items():
+                found[who].append(prepared_world.judge(run).points)
     return {
-        who: np.reshape(points, (len(FAMILIES), WORLDS_PER_FAMILY)) for who, points in found.items()
+        who: np.reshape(points, (len(WORLD_FAMILIES), WORLDS_PER_FAMILY))
+        for who, points in found.items()
     }
 
 
 def between_seeds(points, rng):
-    """Standard deviation of the score between seeds, from (seeds, families, count) points."""
+    """Return the score's standard deviation between seeds, from points (seeds, families, count)."""
     seeds, families, count = points.shape
     drawn = rng.integers(seeds, size=(SETS, families, count))
     sets = points[drawn, np.arange(families)[:, None], np.arange(count)]
@@ -54,7 +55,7 @@ def between_seeds(points, rng):
 
 
 def run(quick):
-    """Rows of the benchmark."""
+    """Make the rows of the benchmark."""
     if quick:
         return rows([points_of_seed(seed) for seed in range(QUICK_SEEDS)])
     with ProcessPoolExecutor() as processes:  # points are counted, not seconds
@@ -62,7 +63,7 @@ def run(quick):
 
 
 def rows(measured):
-    """Rows for the points of some seeds: list of what :func:`points_of_seed` gives."""
+    """Make rows from the points of some seeds, a list of results of :func:`points_of_seed`."""
     rng, found = np.random.default_rng(0), []
     for who in measured[0]:
         points = np.array([of_seed[who] for of_seed in measured])

@@ -1,4 +1,4 @@
-"""Ray casting against a straightforward Python loop and a dense NumPy version."""
+"""Ray casting, compared with a plain Python loop and a dense NumPy version."""
 
 import math
 import sys
@@ -6,14 +6,14 @@ import sys
 import numpy as np
 
 from benchmarks.common import cpu_times, main, speed_rows
-from slamlab.worlds.ray_casting import cast
+from slamlab.simulation.worlds.ray_casting import cast
 
 TITLE = "Ray casting (CPU time, one thread, methods taking turns)"
 CASES = [(400, 10), (400, 100), (400, 1000), (400, 10_000), (3600, 20)]
 
 
 def python_loop(position, directions, walls):
-    """Ray casting by a plain loop: every beam against every wall, one at a time."""
+    """Cast rays by a plain loop: every beam and every wall, one at a time."""
     px, py = position
     ranges = []
     for direction in directions:
@@ -34,7 +34,7 @@ def python_loop(position, directions, walls):
 
 
 def dense_numpy(position, directions, walls):
-    """Ray casting by dense NumPy: every beam against every wall in one table."""
+    """Cast rays by dense NumPy: every beam and every wall in one table."""
     ux, uy = np.cos(directions)[:, None], np.sin(directions)[:, None]
     a, w = walls[:, :2] - position, walls[:, 2:] - walls[:, :2]
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -46,7 +46,7 @@ def dense_numpy(position, directions, walls):
 
 
 def scene(beams, count):
-    """A sensor among random walls of 0.5 to 3 m in a square of 20 x 20 m."""
+    """Make a test scene: a sensor among random walls of 0.5 to 3 m in a square of 20 x 20 m."""
     rng = np.random.default_rng([beams, count])
     centres, turn = rng.uniform(-10, 10, (count, 2)), rng.uniform(0, np.pi, count)
     half = rng.uniform(0.25, 1.5, (count, 1)) * np.column_stack([np.cos(turn), np.sin(turn)])
@@ -55,7 +55,7 @@ def scene(beams, count):
 
 
 def run(quick):
-    """Rows of all cases; the methods' results are held equal first."""
+    """Make rows for all cases; first check that the methods' results agree."""
     rows = []
     for beams, count in CASES:
         position, directions, walls = scene(beams, count)

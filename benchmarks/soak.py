@@ -1,7 +1,7 @@
 """Soak test of live SLAM through emulators on real ports: dropped scans, lag, disconnection.
 
-Emulators, drivers and SLAM share a process, as in a notebook. A machine that others keep busy is no
-fault of theirs: a heartbeat runs beside them, and turns that went by while it stalled are told.
+Emulators, drivers and SLAM share a process, as in a notebook. A heartbeat thread measures and
+reports for how many turns other programs kept the machine busy.
 """
 
 import os
@@ -12,10 +12,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from benchmarks.common import row
-from slamlab import estimators, worlds
+from slamlab import estimators
 from slamlab.devices.emulator.emulator_runner import run_emulators
 from slamlab.devices.errors import ConnectionLost
 from slamlab.devices.rplidar import RPLidar
+from slamlab.simulation import worlds
 from slamlab.sources.live_devices import devices
 
 TITLE = "devices: live SLAM through emulators on real ports (wall time)"
@@ -26,7 +27,8 @@ CIRCLE = 0.1, 0.5  # command that the robot drives [m/s, rad/s]
 
 
 class Heartbeat:
-    """Heartbeat thread; ``stalled`` is for how many turns' time the machine kept it waiting."""
+    """Heartbeat thread; ``stalled`` is the time for which the machine delayed the thread
+    [turns]."""
 
     def __enter__(self):
         self.stalled, self._stop = 0.0, threading.Event()
@@ -43,14 +45,14 @@ class Heartbeat:
         while not self._stop.wait(BEAT):
             now = time.monotonic()
             late = now - last - BEAT
-            self.stalled += late / TURN if late > TURN / 4 else 0  # less does no harm
+            self.stalled += late / TURN if late > TURN / 4 else 0  # shorter delays are harmless
             last = now
 
 
 @dataclass
 class Soak:
-    """Result of a soak test: turns ``made`` and ``dropped``, largest ``lag`` [turns], turns' time
-    for which the machine ``stalled``, ``bytes`` lost, ``cpu`` share of one core."""
+    """Result of a soak test: turns ``made`` and ``dropped``, largest ``lag`` [turns], time for
+    which the machine ``stalled`` [turns], ``bytes`` lost, ``cpu`` share of one core."""
 
     made: int
     dropped: int
@@ -61,13 +63,13 @@ class Soak:
 
 
 def emulators():
-    """Start the emulators of lidar and robot."""
+    """Start the emulators of the lidar and the robot."""
     tcp = None if os.name == "posix" else LOCAL
     return run_emulators(worlds.polygon(), np.random.default_rng(0), tcp)
 
 
 def soak(seconds, estimator="icp"):
-    """Soak test: a robot drives in circles while a SLAM takes in every scan.
+    """Run a soak test: a robot drives in circles while SLAM processes every scan.
 
     Parameters
     ----------
@@ -85,27 +87,27 @@ def soak(seconds, estimator="icp"):
         for taken, reading in enumerate(source, 1):
             slam.step(reading)
             stats = source.lidar.stats
-            lag = max(lag, stats["turns"] - stats["turns dropped"] - taken)
+            lag = max(lag, stats["revolutions"] - stats["revolutions dropped"] - taken)
             if reading.time > seconds:
                 break
         cpu = (time.process_time() - cpu) / (time.monotonic() - begin)
         lost = stats["bytes dropped"] + sum(it.dropped.values())
-    return Soak(stats["turns"], stats["turns dropped"], lag, heart.stalled, lost, cpu)
+    return Soak(stats["revolutions"], stats["revolutions dropped"], lag, heart.stalled, lost, cpu)
 
 
 def detection_time(fault):
-    """Time until a lost connection to the lidar is detected [s].
+    """Measure the time until a lost connection to the lidar is detected [s].
 
     Parameters
     ----------
-    fault : str, "unplugged", or "stalled" where the port stays and nothing comes any more
+    fault : str, "unplugged", or "stalled" if the port stays open and no data arrive
     """
     with emulators() as it, RPLidar(it.ports["lidar"]) as lidar:
-        lidar.turn()
+        lidar.revolution()
         setattr(it["lidar"].faults, fault, True)
         begin = time.monotonic()
         try:
-            while lidar.turn():
+            while lidar.revolution():
                 pass
         except ConnectionLost:
             pass
@@ -113,19 +115,19 @@ def detection_time(fault):
 
 
 def run(quick):
-    """Rows on ten minutes of live SLAM, and on lost connections to the lidar."""
+    """Make rows for ten minutes of live SLAM, and for lost connections to the lidar."""
     got = soak(20 if quick else 600)
     pulls = 2 if quick else 10
     faults = "unplugged", "stalled"
     gone = {fault: max(detection_time(fault) for _ in range(pulls)) for fault in faults}
     return [
         row(f"turns dropped of {got.made}", got.dropped, "1", "goal 0", got.dropped == 0),
-        row("turns by which the SLAM lags, at most", got.lag, "1", "goal 1", 1 / max(got.lag, 1)),
-        row("turns' time the machine stood", got.stalled, "1", "goal 0", got.stalled == 0),
+        row("lag of the SLAM in turns, at most", got.lag, "1", "goal 1", 1 / max(got.lag, 1)),
+        row("time the machine stalled, in turns", got.stalled, "1", "goal 0", got.stalled == 0),
         row("bytes lost", got.bytes, "1", "goal 0", got.bytes == 0),
-        row("all together: share of a core", 100 * got.cpu, "%", "one core", 1 / got.cpu),
+        row("share of a core in total", 100 * got.cpu, "%", "one core", 1 / got.cpu),
         *(
-            row(f"lidar {fault} → noticed, at most", seconds, "s", "goal 1 s", 1 / seconds)
+            row(f"lidar {fault} → detected, at most", seconds, "s", "goal 1 s", 1 / seconds)
             for fault, seconds in gone.items()
         ),
     ]

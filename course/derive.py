@@ -1,4 +1,4 @@
-"""Derive (generate) notebooks from a source, without outputs: nothing is run or written here."""
+"""Derive (generate) notebooks without outputs from a source; nothing is run or written."""
 
 import re
 from dataclasses import dataclass, replace
@@ -6,23 +6,27 @@ from pathlib import Path
 
 import nbformat
 
-from course import asking, glossary, visible_code
-from course.exercise import (
+from classroom.exercises import catalogue
+from classroom.exercises.verdict_text import points
+from course import glossary, question_cells, visible_code
+from course.lint import lint
+from course.notebook_links import with_links
+from course.solution_cells import (
     PROTECTED,
     VALIDATE,
     check_metadata,
-    solution_regions,
     solution_metadata,
+    solution_regions,
     strip_solutions,
 )
-from course.links import with_links
-from course.lint import lint
 from course.source import ROOT, Cell, CourseError, Source, read
-from slamlab.exercises import catalogue
-from slamlab.exercises.report import points
 
 _TASK_HEADING = re.compile(r"^## .*\S", re.MULTILINE)
-FOLDERS = {"lesson": ("notebooks",), "exercise": ("exercises", "solutions")}
+FOLDERS = {
+    "lesson": ("notebooks",),
+    "exercise": ("exercises", "solutions"),
+    "appendix": ("notebooks",),
+}
 
 
 @dataclass(frozen=True)
@@ -32,7 +36,7 @@ class Derived:
     Parameters
     ----------
     source : Source
-    path : Path, where it is to stand
+    path : Path, of the notebook
     notebook : NotebookNode
     runs : bool, whether it is stored with outputs
     """
@@ -44,7 +48,8 @@ class Derived:
 
 
 def derive(path, root=ROOT):
-    """Derive the notebooks of one source: a lesson's, or an exercise's to solve and solved.
+    """Derive the notebooks of one source: one notebook of a lesson, or two of an exercise (to solve
+    and solved).
 
     Parameters
     ----------
@@ -57,7 +62,7 @@ def derive(path, root=ROOT):
 
     Raises
     ------
-    CourseError : where the source breaks the course's standards
+    CourseError : the source violates the course's standards
     """
     source = read(path)
     exercise = _exercise(source.number) if source.kind == "exercise" else None
@@ -88,7 +93,7 @@ def _exercise(number):
 
 
 def _with_points(cells, exercise):
-    """The cells with what a task is worth in the heading above its check."""
+    """Return the cells with each task's points added to the heading above its check."""
     found, headed = list(cells), None
     for k, cell in enumerate(cells):
         if cell.type == "markdown" and _TASK_HEADING.search(cell.text):
@@ -129,9 +134,9 @@ def _cell(cell, exercise, stubs):
     if cell.minutes:
         metadata |= {"slamlab": {"minutes": cell.minutes}}
     if cell.answers:  # folded until the question is answered
-        told = metadata.get("slamlab", {}) | {"answers": cell.answers}
+        answers = metadata.get("slamlab", {}) | {"answers": cell.answers}
         folded = "outputs_hidden" if cell.type == "code" else "source_hidden"
-        metadata |= {"slamlab": told, "jupyter": {folded: True}}
+        metadata |= {"slamlab": answers, "jupyter": {folded: True}}
     if visible_code.FOLDED in cell.tags:
         metadata["jupyter"] = metadata.get("jupyter", {}) | {"source_hidden": True}
     text = glossary.filled(cell.text)
@@ -146,8 +151,8 @@ def _cell(cell, exercise, stubs):
     elif cell.text == VALIDATE:
         metadata |= PROTECTED
     elif cell.type == "code":
-        text = asking.short(text)
-    if stubs and "nbval-check-output" in cell.tags:  # nothing is stored to compare with
+        text = question_cells.short(text)
+    if stubs and "nbval-check-output" in cell.tags:  # no stored output to compare with
         metadata["tags"] = [tag for tag in cell.tags if tag != "nbval-check-output"]
     if not metadata.get("tags", True):
         del metadata["tags"]

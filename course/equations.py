@@ -1,4 +1,5 @@
-"""Numbers of equations: ``\\tag{07.3}`` is the third of lesson 07, ``(07.3)`` refers to it."""
+"""Equation numbers: ``\\tag{07.3}`` marks the third equation of lesson 07; ``(07.3)`` refers to
+it."""
 
 import re
 from functools import cache
@@ -11,7 +12,7 @@ REFERENCE = re.compile(r"\((\d\d\.\d+)\)")
 
 
 def numbers(text):
-    """The numbers of the equations in a text, in their order.
+    """List the numbers of a text's equations in order.
 
     Parameters
     ----------
@@ -26,7 +27,7 @@ def numbers(text):
 
 @cache
 def of_lesson(number, root=ROOT):
-    """The numbers of a lesson's equations.
+    """Return the numbers of a lesson's equations.
 
     Parameters
     ----------
@@ -42,7 +43,7 @@ def of_lesson(number, root=ROOT):
 
 
 def problems(source):
-    """Problems of equations: numbers that do not ascend, lack, or lead nowhere.
+    """Find problems with equations: numbers out of order, missing numbers, dangling references.
 
     Parameters
     ----------
@@ -61,7 +62,10 @@ def problems(source):
                 yield cell, f"the equation ({each}) should be ({right})"
         bare = [shown for shown in DISPLAY.findall(cell.text) if not numbers(shown)]
         if own and bare:
-            yield cell, "an equation without a number: once one is numbered (\\tag), all are"
+            yield (
+                cell,
+                "an equation has no number: number all equations (\\tag) or none",
+            )
         for each in REFERENCE.findall(cell.text):
             if each not in own and each not in of_lesson(each[:2]):
-                yield cell, f"there is no equation ({each})"
+                yield cell, f"the equation ({each}) does not exist"

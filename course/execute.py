@@ -10,9 +10,9 @@ from tempfile import TemporaryDirectory
 from nbclient import NotebookClient
 from nbclient.exceptions import CellExecutionError, CellTimeoutError, DeadKernelError
 
-from course import values
+from classroom.coursework.folder import OFF
+from course import computed_values
 from course.source import ROOT
-from slamlab.coursework.folder import OFF
 from slamlab.parallel import THREAD_VARIABLES
 
 WIDGET = "application/vnd.jupyter.widget-view+json"
@@ -20,7 +20,7 @@ TIMEOUT = 300  # of one cell [s]
 
 
 class ExecutionError(Exception):
-    """A cell failed; ``cell`` is its position, the message the error's last lines."""
+    """A cell failed; ``cell`` is its index, and the message contains the error's last lines."""
 
     def __init__(self, cell, message):
         super().__init__(message)
@@ -28,22 +28,22 @@ class ExecutionError(Exception):
 
 
 def executed(notebook):
-    """Whether every code cell of a stored notebook was run."""
+    """Return whether every code cell of a stored notebook was executed."""
     return all(c.execution_count for c in notebook.cells if c.cell_type == "code")
 
 
 def same_code(derived, stored):
-    """Whether two notebooks run the same code, cell by cell, and compute the same values."""
+    """Return whether two notebooks run the same code, cell by cell, and compute the same values."""
 
     def code(notebook):
         return [(c.id, c.source) for c in notebook.cells if c.cell_type == "code"]
 
-    return code(derived) == code(stored) and values.carry(derived, stored) is not None
+    return code(derived) == code(stored) and computed_values.carry(derived, stored) is not None
 
 
 def carry_outputs(derived, stored):
-    """Copy outputs and values of a stored notebook to the derived one that runs the same code."""
-    notebook, outputs = values.carry(derived, stored), {c.id: c for c in stored.cells}
+    """Copy the outputs and values of a stored notebook to a derived notebook with the same code."""
+    notebook, outputs = computed_values.carry(derived, stored), {c.id: c for c in stored.cells}
     for cell in notebook.cells:
         if cell.cell_type == "code":
             cell.outputs = outputs[cell.id].outputs
@@ -52,22 +52,22 @@ def carry_outputs(derived, stored):
 
 
 def execute(derived, folder):
-    """Execute a notebook from its folder in a fresh kernel of this Python.
+    """Execute a notebook in its folder, in a fresh kernel of this Python.
 
     Parameters
     ----------
     derived : NotebookNode, left as it is
-    folder : Path, where the notebook is to stand
+    folder : Path, of the notebook
 
     Returns
     -------
-    NotebookNode : with its outputs, fit to be stored
+    NotebookNode : with outputs that can be stored
 
     Raises
     ------
-    ExecutionError : when a cell fails, takes too long or kills the kernel
+    ExecutionError : a cell fails, takes too long or kills the kernel
     """
-    notebook = values.with_computing_cells(copy.deepcopy(derived))
+    notebook = computed_values.with_computing_cells(copy.deepcopy(derived))
     folder.mkdir(exist_ok=True)
     client = NotebookClient(
         notebook,
@@ -76,7 +76,7 @@ def execute(derived, folder):
         resources={"metadata": {"path": str(folder)}},
         store_widget_state=False,
         record_timing=False,
-        coalesce_streams=True,  # how a print is cut into messages is chance
+        coalesce_streams=True,  # the division of a print into messages is random
         extra_arguments=["--log-level=ERROR"],
     )
     env = os.environ | {
@@ -84,20 +84,20 @@ def execute(derived, folder):
         "PYTHONHASHSEED": "0",
         "JUPYTER_PREFER_ENV_PATH": "1",
     }
-    env["NO_COLOR"] = "1"  # what is stored is plain text
-    env[OFF] = "1"  # nobody learns here
+    env["NO_COLOR"] = "1"  # stored outputs are plain text
+    env[OFF] = "1"  # no student's progress is recorded
     env |= dict.fromkeys(THREAD_VARIABLES, "1")  # measured times are those of one core
-    if "SLAMLAB_DATA" in env:  # the kernel stands in another folder
+    if "SLAMLAB_DATA" in env:  # the kernel runs in another folder
         env["SLAMLAB_DATA"] = str(Path(env["SLAMLAB_DATA"]).resolve())
     try:
-        with TemporaryDirectory() as profile:  # nobody's own profile takes part
+        with TemporaryDirectory() as profile:  # without the user's own profile
             client.execute(env=env | {"IPYTHONDIR": profile})
     except (CellExecutionError, CellTimeoutError, DeadKernelError) as error:
         begun = [n for n, c in enumerate(notebook.cells) if c.get("execution_count")]
         before = notebook.cells[: begun[-1] if begun else 0]
-        place = sum(not values.is_computing(cell) for cell in before)
-        raise ExecutionError(place, _last_lines(error)) from None
-    values.take_computed(notebook)
+        index = sum(not computed_values.is_computing(cell) for cell in before)
+        raise ExecutionError(index, _last_lines(error)) from None
+    computed_values.take_computed(notebook)
     notebook.metadata = copy.deepcopy(derived.metadata)  # the kernel adds its version
     for number, cell in enumerate(c for c in notebook.cells if c.cell_type == "code"):
         cell.execution_count = number + 1
@@ -106,12 +106,12 @@ def execute(derived, folder):
 
 
 def _clean_output(output, number):
-    """Clean an output: words in place of a widget, no machine paths, no counts."""
+    """Clean an output: remove widgets without a model, machine paths and counts."""
     if "execution_count" in output:
         output["execution_count"] = number
     data = output.get("data", {})
     if WIDGET in data:
-        # a stored widget has no model behind it: Jupyter would say that there is none
+        # a stored widget has no model, which Jupyter would report
         del data[WIDGET]
     for holder, key in [(output, "text"), (output, "evalue"), *((data, mime) for mime in data)]:
         text = holder.get(key)
@@ -123,7 +123,7 @@ def _clean_output(output, number):
 
 
 def _without_paths(text):
-    places = {str(ROOT): ".", sys.prefix: "python", str(Path.home()): "~"}
+    places = {str(ROOT): ".", sys.prefix: "python", os.path.expanduser("~"): "~"}
     if "SLAMLAB_DATA" in os.environ:
         data = os.environ["SLAMLAB_DATA"]
         places |= {data: "data", str(Path(data).resolve()): "data"}

@@ -1,4 +1,4 @@
-"""Linter of figures in the course's sources: colours by their meaning, numbers from the data."""
+"""Linter for figures in the course's sources: it finds hard-coded colours and numbers."""
 
 import ast
 import inspect
@@ -6,7 +6,7 @@ import re
 
 from matplotlib.colors import CSS4_COLORS
 
-from slamlab import views
+from slamlab import live, views
 
 COLOUR_ARGUMENT = re.compile(r"c|[ef]c|m[ef]c|.*colou?rs?")
 CODED = re.compile(r"#[0-9a-fA-F]{3,8}|C\d+|(tab|xkcd):.+")
@@ -14,14 +14,14 @@ CODED = re.compile(r"#[0-9a-fA-F]{3,8}|C\d+|(tab|xkcd):.+")
 FORMAT = re.compile(r"[-.:,ov^<>spP*hHxXDd|_+\d]*[bgrcmykw][-.:,ov^<>spP*hHxXDd|_+\d]*")
 PLOTS = {"errorbar", "loglog", "plot", "semilogx", "semilogy", "step", "stem"}
 
-# digits that an alternative text may hold though no data bear them out, each with its reason
+# digits that an alternative text may contain without data, each with its reason
 NUMBERS = {
     r"\bsituation[ -]\d\b": "the name of one of the two thesis worlds",
 }
 
 
 def figure_problems(tree):
-    """Find colours and numbers that are typed where the table or the data would say them.
+    """Find hard-coded colours and numbers, which must come from the colour table or the data.
 
     Parameters
     ----------
@@ -35,23 +35,23 @@ def figure_problems(tree):
         for line, colour in _typed_colours(node):
             yield (
                 line,
-                f'the colour {colour} is typed: take it from views.COLOURS["meaning"] (or '
-                "views.SERIES where it has none)",
+                f'the colour {colour} is hard-coded: take it from views.COLOURS["meaning"] (or '
+                "views.SERIES if it has no meaning)",
             )
         if isinstance(node, ast.Call):
             for line, number in _typed_numbers(node):
                 yield (
                     line,
-                    f"the alternative text says {number!r} by itself: put it in from the data, "
-                    'f"… {value:.1f} …"',
+                    f"the alternative text has the hard-coded number {number!r}: insert it from "
+                    'the data, f"… {value:.1f} …"',
                 )
 
 
 def _typed_colours(node):
-    """Colours that a node of a program names itself, as (line, program text)."""
-    said = getattr(node, "value", None) if isinstance(node, ast.Constant) else None
-    if isinstance(said, str) and (said.lower() in CSS4_COLORS or CODED.fullmatch(said)):
-        yield node.lineno, repr(said)
+    """Yield the hard-coded colours of a node as (line, program text)."""
+    text = getattr(node, "value", None) if isinstance(node, ast.Constant) else None
+    if isinstance(text, str) and (text.lower() in CSS4_COLORS or CODED.fullmatch(text)):
+        yield node.lineno, repr(text)
     if isinstance(node, ast.JoinedStr):
         start = node.values[0] if node.values else None
         if isinstance(start, ast.Constant) and start.value in ("C", "#", "tab:"):
@@ -74,7 +74,7 @@ def _typed_colours(node):
 
 
 def _is_short(value):
-    """Whether a value is a letter, a grey or three numbers that matplotlib takes for a colour."""
+    """Return whether matplotlib reads a value as a colour: a letter, a grey level or a tuple."""
     if isinstance(value, ast.Tuple | ast.List):
         return bool(value.elts) and all(isinstance(each, ast.Constant) for each in value.elts)
     return isinstance(value, ast.Constant) and bool(
@@ -83,7 +83,7 @@ def _is_short(value):
 
 
 def _typed_numbers(call):
-    """Typed numbers in the alternative text of a call to one of the views."""
+    """Yield the hard-coded numbers in the alternative text of a call to a view."""
     for text in _alternative_texts(call):
         formats = {
             id(part)
@@ -101,7 +101,8 @@ def _typed_numbers(call):
 
 def _alternative_texts(call):
     yield from (word.value for word in call.keywords if word.arg == "alt")
-    function = getattr(views, getattr(call.func, "attr", ""), None)
+    name = getattr(call.func, "attr", "")
+    function = getattr(views, name, None) or getattr(live, name, None)
     if not callable(function):
         return
     names = list(inspect.signature(function).parameters)

@@ -1,25 +1,34 @@
-"""Linter of the course's sources: breaches of its standards with file and line."""
+"""Linter for the course's sources: it lists violations of the standards with file and line."""
 
 import ast
 import importlib
 import re
 from itertools import pairwise
 
-from course import asking, digits, equations, per_cent, values, visible_code
-from course.exercise import SolutionError, solution_regions
+from classroom.coursework.progress_overview import QUESTION
+from classroom.lecturing.time_plan import total_minutes
+from course import (
+    computed_values,
+    equations,
+    large_numbers,
+    percent_signs,
+    question_cells,
+    visible_code,
+)
 from course.figure_lint import figure_problems
+from course.solution_cells import SolutionError, solution_regions
 from course.source import CHECK, ID, METADATA, heading, main_line
-from slamlab.lecturing.planning import total
-from slamlab.coursework.overview import QUESTION
 
+OURS = ("slamlab", "classroom", "course")
 TAGS = {
+    "your-turn",
     visible_code.FOLDED,
     visible_code.SUBJECT,
     "lecturer",
     "nbval-check-output",
     "nbval-ignore-output",
     "nbval-skip",
-    "nearly",  # numbers that hang on the processor's rounding
+    "nearly",  # numbers that depend on the processor's rounding
     "raises-exception",
 }
 SLIDES = {"slide", "subslide", "fragment", "notes", "skip", "-"}
@@ -27,23 +36,24 @@ MAX_CELL_LINES = 30  # lines of a lesson's code cell
 
 _FIRST = {
     "lesson": {
-        r"able to": "say what the reader will be able to do",
-        r"\bmin": "say how many minutes it takes",
-        r"before|need": "say what the reader needs before",
+        r"able to": "state what the reader will be able to do",
+        r"\bmin": "state how many minutes the lesson takes",
+        r"before|need": "state what the reader must know beforehand",
     },
     "exercise": {},
+    "appendix": {},
 }
-# a table's first line with an empty cell; where code writes it, its first string
+# the first line of a table with an empty cell, or the first string of a table in code
 HEADLESS = re.compile(r"^\|(?:.*\|)? +\|.*\n\|[ :|-]+\|$|\"\| +\|", re.MULTILINE)
 
 
 def lint(source, exercise=None):
-    """Lint a source: every breach of the standards.
+    """Lint a source and list all violations of the standards.
 
     Parameters
     ----------
     source : Source
-    exercise : slamlab.exercises.exercise.Exercise or None, what the catalogue says of an exercise
+    exercise : classroom.exercises.exercise.Exercise or None, the exercise's entry in the catalogue
 
     Returns
     -------
@@ -75,17 +85,17 @@ def _names(source):
     seen = {}
     for cell in source.cells:
         if not ID.fullmatch(cell.id):
-            yield cell, f"{cell.id!r} is no name: use 1 to 64 letters, digits, hyphens"
+            yield cell, f"{cell.id!r} is not a valid name: use 1 to 64 letters, digits, hyphens"
         if cell.id in seen:
-            yield cell, f"the name {cell.id!r} stands already in line {seen[cell.id]}"
+            yield cell, f"the name {cell.id!r} is already used in line {seen[cell.id]}"
         seen.setdefault(cell.id, cell.line)
 
 
 def _markers(cell):
     if cell.type not in ("markdown", "code"):
-        yield f"a {cell.type} cell: only markdown and code are used"
+        yield f"{cell.type} cell: only markdown and code cells are allowed"
     if "title" in cell.metadata:
-        yield f"unknown marker {cell.metadata['title']!r} behind # %%"
+        yield f"unknown marker {cell.metadata['title']!r} after # %%"
     for key in sorted(set(cell.metadata) - {*METADATA, "title"}):
         yield f"unknown marker {key!r}: only {', '.join(METADATA)}"
     for tag in cell.tags:
@@ -94,15 +104,15 @@ def _markers(cell):
     if cell.slide not in SLIDES | {None}:
         yield f"unknown slide type {cell.slide!r}: only {', '.join(sorted(SLIDES))}"
     if set(cell.metadata.get("slideshow", {})) - {"slide_type"}:
-        yield "slideshow holds slide_type and nothing else"
+        yield "slideshow may contain slide_type only"
     if cell.slide == "notes" and cell.type != "markdown":
-        yield "speaker's notes are markdown"
+        yield "speaker's notes must be markdown"
     if not cell.text.strip():
-        yield "an empty cell"
+        yield "the cell is empty"
 
 
 def _code(source, cell):
-    """Problems of a code cell as (line in the cell, text)."""
+    """Yield the problems of a code cell as (line in the cell, text)."""
     lines = cell.text.splitlines()
     if source.kind == "lesson" and len(lines) > MAX_CELL_LINES:
         yield 0, f"{len(lines)} lines of code: at most {MAX_CELL_LINES} in a lesson's cell"
@@ -113,103 +123,111 @@ def _code(source, cell):
             cell.text, "<cell>", "exec", ast.PyCF_ALLOW_TOP_LEVEL_AWAIT | ast.PyCF_ONLY_AST
         )
     except SyntaxError as error:
-        yield error.lineno or 0, f"no plain Python: {error.msg}"
+        yield error.lineno or 0, f"not valid Python: {error.msg}"
         return
     yield from figure_problems(tree)
-    if not asking.asks(cell.text):  # its words are prose
-        yield from per_cent.in_code(tree)
-        yield from digits.in_code(tree)
+    if not question_cells.asks(cell.text):  # a question's wording is prose
+        yield from percent_signs.in_code(tree)
+        yield from large_numbers.in_code(tree)
     try:
         marked = solution_regions(cell.text)
     except SolutionError as error:
         yield error.line, error.message
         return
     if marked and source.kind == "lesson":
-        yield marked[0][0], "a lesson holds no solution: that is for exercises"
+        yield marked[0][0], "a lesson must not contain a solution; only exercises do"
 
 
 def _slides(source):
-    """Problems of hidden cells: on a slide, Shift+Enter goes to the next cell, hidden or not."""
+    """Yield problems with hidden cells: Shift+Enter selects the next cell even if it is hidden."""
     for before, cell in pairwise(source.cells):
         if cell.slide in ("notes", "skip") and before.type == "code":
             yield (
                 cell,
-                f"{cell.slide} behind code, where Shift+Enter ends on an empty slide: move it up",
+                f"{cell.slide} after code: Shift+Enter would end on an empty slide: move it up",
             )
 
 
 def _minutes(source):
-    """Problems of the plan: minutes beside slides, and those that do not add up."""
+    """Yield problems with the time plan: minutes in wrong cells, or minutes with a wrong sum."""
     planned = [cell for cell in source.cells if cell.minutes is not None]
     for cell in planned:
         if cell.slide not in ("slide", "subslide"):
-            yield cell, "minutes stand where a slide begins"
+            yield cell, "minutes belong to the first cell of a slide"
         if type(cell.minutes) is not int or cell.minutes < 1:
-            yield cell, f"minutes are whole and above 0, not {cell.minutes!r}"
+            yield cell, f"minutes must be a whole number above 0, not {cell.minutes!r}"
             return
-    promised, whole = total(source.cells[0].text), sum(cell.minutes for cell in planned)
+    promised, whole = total_minutes(source.cells[0].text), sum(cell.minutes for cell in planned)
     if planned and promised != whole:
-        yield source.cells[0], f"the sections' minutes add up to {whole}, the head says {promised}"
+        yield (
+            source.cells[0],
+            f"the sections' minutes add up to {whole}, but the first cell states {promised}",
+        )
 
 
 def _questions(source):
-    """Problems of questions: ids that are not this notebook's, answers without their question."""
+    """Yield problems with questions: wrong ids, or answers without a question."""
     asked = set()
     for cell in source.cells:
         for id in QUESTION.findall(cell.text) if cell.type == "code" else ():
             if not id.startswith(f"{source.prefix}-") or id in asked:
-                yield cell, f"call the question {source.prefix}-…, and each one differently"
+                yield cell, f"a question's id must begin with {source.prefix}- and be unique"
             asked.add(id)
             try:
-                asking.asked(cell.text)
+                question_cells.asked(cell.text)
             except ValueError:
-                yield cell, "a question is stored: write out what is asked, compute nothing in it"
+                yield cell, "a question is stored: use literals only, compute nothing in it"
         if cell.answers and cell.answers not in asked:
-            yield cell, f"answers a question {cell.answers!r} that no cell before it asks"
+            yield cell, f"answers the question {cell.answers!r}, which no earlier cell asks"
         if cell.answers and cell.type == "markdown" and heading(cell.text):
-            yield cell, "a heading is not folded: put it before the question"
+            yield cell, "a heading cannot be folded: move it before the question"
 
 
 def _numbers(source):
-    """Problems of prose, that of questions too: large numbers, a number and its %."""
+    """Yield problems with large numbers and per cent signs in prose and questions."""
     for cell in source.cells:
-        prose = cell.type == "markdown" or asking.asks(cell.text)
-        if prose and per_cent.in_prose(values.MARK.sub("", cell.text)):  # values get their space
-            yield cell, per_cent.SAYS
-        if prose and (found := digits.in_prose(cell.text)):
-            yield cell, f"{found}: {digits.SAYS}"
+        prose = cell.type == "markdown" or question_cells.asks(cell.text)
+        if prose and percent_signs.in_prose(
+            computed_values.MARK.sub("", cell.text)
+        ):  # values get their space
+            yield cell, percent_signs.MESSAGE
+        if prose and (found := large_numbers.in_prose(cell.text)):
+            yield cell, f"{found}: {large_numbers.MESSAGE}"
 
 
 def _tables(source):
-    """Problems of tables, those that code writes too: a column without a heading."""
+    """Yield problems with tables, including tables in code: columns without a heading."""
     for cell in source.cells:
         if HEADLESS.search(cell.text):
-            yield cell, "a column of a table has no heading, by which it is read out"
+            yield cell, "a table column has no heading; screen readers need one"
 
 
 def _first_and_last_cell(source):
-    """Problems of the first and the last cell."""
+    """Yield problems with the first and the last cell."""
     if not source.cells:
         return
     first = source.cells[0]
     last = main_line(source.cells)[-1]
     title = heading(first.text) if first.type == "markdown" else None
-    if not re.fullmatch(rf"(Exercise )?{source.number} · .+", title or ""):
-        yield first, f"the first cell begins with the heading `# {source.number} · Title`"
+    if source.kind == "appendix":
+        if not title:
+            yield first, "the first cell must begin with a heading of the first level"
+    elif not re.fullmatch(rf"(Exercise )?{source.number} · .+", title or ""):
+        yield first, f"the first cell must begin with the heading `# {source.number} · Title`"
     for pattern, wish in _FIRST[source.kind].items():
         if not re.search(pattern, first.text, re.IGNORECASE):
             yield first, f"the first cell: {wish}"
     if source.kind == "lesson":
-        wanted = f"../exercises/ex{source.path.stem}.ipynb" if source.number != "00" else ".ipynb"
+        wanted = f"../exercises/ex{source.topic}.ipynb" if source.number != "00" else ".ipynb"
         if last.type != "markdown" or wanted not in last.text:
             yield (
                 last,
-                f"the last cell of the main line says what comes next and links to {wanted}",
+                f"the last cell of the main line must state what comes next and link to {wanted}",
             )
 
 
 def _checks(source, exercise):
-    """Problems of the checks: each task of the exercise has exactly one."""
+    """Yield problems with the checks: each task of the exercise must have exactly one check."""
     known = [task.id for task in exercise.tasks] if exercise else []
     found = [cell.check for cell in source.cells if cell.check]
     for cell in source.cells:
@@ -218,31 +236,31 @@ def _checks(source, exercise):
         elif cell.check and found.count(cell.check) > 1:
             yield cell, f"{cell.check!r} is checked more than once"
         elif cell.check and cell.id != cell.check:
-            yield cell, "a check cell is named by its task: leave the name away"
+            yield cell, "a check cell gets the name of its task: omit the name"
         elif cell.type == "code" and not cell.check and CHECK.search(cell.text):
-            yield cell, "a check stands in a cell of its own, nothing beside it"
+            yield cell, "a check must be alone in its cell"
     for id in known:
         if id not in found:
             yield source.cells[-1], f'the task {id!r} has no cell check("{id}")'
-    if exercise and exercise.notebook != source.path.stem:
+    if exercise and exercise.notebook != source.topic:
         yield source.cells[0], f"the catalogue calls this notebook {exercise.notebook!r}"
     if not exercise:
-        yield source.cells[0], f"slamlab.exercises.catalogue knows no exercise {source.number!r}"
+        yield source.cells[0], f"classroom.exercises.catalogue has no exercise {source.number!r}"
 
 
 def _imports(cell, exercise):
-    """Top-level imports from slamlab that a submission could not have when it is graded."""
+    """Yield top-level imports of modules that are not available when a notebook is graded."""
     if cell.type != "code" or exercise is None:
         return
     try:
         tree = ast.parse(cell.text)
     except SyntaxError:
         return
-    allowed = {*exercise.allows, "slamlab.checks"}
+    allowed = {*exercise.allows, "classroom.checks"}
     for node in _top_level(tree):
         if isinstance(node, ast.Import):
             modules = [(alias.name,) for alias in node.names]
-        elif isinstance(node, ast.ImportFrom) and (node.module or "").startswith("slamlab"):
+        elif isinstance(node, ast.ImportFrom) and (node.module or "").startswith(OURS):
             modules = [
                 (
                     node.module,
@@ -254,19 +272,20 @@ def _imports(cell, exercise):
         else:
             continue
         for names in modules:
-            if names[0].split(".")[0] == "slamlab" and not allowed.intersection(names):
+            if names[0].startswith(OURS) and not allowed.intersection(names):
                 listed = ", ".join(sorted(allowed))
                 yield (
                     node.lineno,
-                    f"{names[-1]} is not there at grading (only {listed}): import it "
+                    f"{names[-1]} is not available during grading (only {listed}): import it "
                     "inside the function under @attempt",
                 )
 
 
 def _defining_module(module, name):
-    """The module in which a name stands that a room of slamlab offers at its door.
+    """Return the module that defines a name exported by a package of slamlab.
 
-    What a module merely imports for itself is not there at grading, unless that module is.
+    A name that a module only imports is available during grading only if the module that defines it
+    is available, too.
     """
     try:
         room = importlib.import_module(module)

@@ -1,49 +1,56 @@
-"""Pack the course: for students (``make student``), without solutions, or for lecturers."""
+"""Pack the course for students (``make student``, without solutions) or for lecturers."""
 
 import argparse
 import io
-import json
 import re
 import sys
+import tomllib
 import zipfile
-from pathlib import Path
+from pathlib import Path, PurePath
 
-from slamlab.coursework import originals
-from slamlab.coursework.file_writing import json_bytes
+from classroom.coursework import originals
+from course.lecturer_cells import without_notes
 
 ROOT = Path(__file__).resolve().parents[1]
-HANDOUT = Path(__file__).parent / "handout"  # files that students get in place of the project's
-FOLDERS = ("notebooks", "exercises", "slamlab", "labextension")
+HANDOUT = Path(__file__).parent / "handout"  # replaces the project's files for students
+# the parts of the course that its distribution ships: no solutions, no known mistakes
+_BUILD = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["hatch"]["build"]
+SHIPPED, NEVER_SHIPPED = _BUILD["targets"]["wheel"]["only-include"], _BUILD["exclude"]
+FOLDERS = ("notebooks", "exercises", "slamlab", *SHIPPED, "labextension")
 FILES = ("LICENSE", "lab.py", "pyproject.toml", "environment.yml", "requirements.lock",
-         "docs/live.md", "docs/robots.md")  # fmt: skip
-LECTURERS_FOLDERS = (*FOLDERS, "solutions", "docs", "course")
+         "docs/live.md", "docs/robots.md", "docs/your_flat.md")  # fmt: skip
+LECTURERS_FOLDERS = ("notebooks", "exercises", "slamlab", "classroom", "course", "labextension",
+                     "solutions", "docs")  # fmt: skip
 LECTURERS_FILES = (*FILES[:-1], "README.md", "Makefile", "CONTRIBUTING.md",
                    "requirements-test.lock")  # fmt: skip
-LARGEST = 25e6  # [bytes] of what students get
+LARGEST = 25e6  # of the students' pack [bytes]
 EXCLUDED = ("__pycache__", ".ipynb_checkpoints")
-INK = ".ink"  # in the name of what was drawn in a lecture: the lecturer's own
+INK = ".ink"  # in the name of a file with drawings from a lecture; they stay with the lecturer
 TOP = "slam-course"
 TIMESTAMP = (1980, 1, 1, 0, 0, 0)  # of every file in a zip, the earliest it can hold
-LECTURER = {"notes", "lecturer"}  # slide type or tag of cells that students do not get
 _PICTURE = re.compile(r"!\[[^]]*\]\(([^)]+)\)")
 
 
 def contents(root=ROOT, pages=None):
-    """List what students get.
+    """Return the files of the students' pack.
 
     Parameters
     ----------
     root : Path, of the project
-    pages : dict or None, name to bytes of the lessons as pages (:mod:`course.site.in_pack`)
+    pages : dict or None, name to bytes of HTML pages (:mod:`course.site.student_pack_pages`)
 
     Returns
     -------
     dict, name in the pack to bytes, sorted
     """
-    found = _files(root, FOLDERS, FILES)
+    found = {
+        name: data
+        for name, data in _files(root, FOLDERS, FILES).items()
+        if not any(PurePath(name).match(pattern) for pattern in NEVER_SHIPPED)
+    }
     found |= {path.name: path.read_bytes() for path in sorted(HANDOUT.iterdir())}
-    robots = found["docs/robots.md"].decode()
-    for picture in _PICTURE.findall(robots):
+    guides = [data.decode() for name, data in found.items() if name.startswith("docs/")]
+    for picture in _PICTURE.findall("\n".join(guides)):
         found[f"docs/{picture}"] = (root / "docs" / picture).read_bytes()
     for name in found:
         if name.startswith("notebooks/"):
@@ -56,7 +63,7 @@ def contents(root=ROOT, pages=None):
 
 
 def lecturers_contents(root=ROOT):
-    """List what lecturers get: notes, solutions and the texts' sources as well.
+    """Return the files of the lecturers' pack, with notes, solutions and sources.
 
     Parameters
     ----------
@@ -67,22 +74,6 @@ def lecturers_contents(root=ROOT):
     dict, name in the pack to bytes, sorted
     """
     return dict(sorted(_files(root, LECTURERS_FOLDERS, LECTURERS_FILES).items()))
-
-
-def without_notes(data):
-    """A notebook without what speaks to the lecturer.
-
-    Parameters
-    ----------
-    data : bytes, of a notebook's file
-
-    Returns
-    -------
-    bytes
-    """
-    notebook = json.loads(data)
-    notebook["cells"] = [cell for cell in notebook["cells"] if not LECTURER & marks(cell)]
-    return json_bytes(notebook)
 
 
 def pack(target, files):
@@ -97,11 +88,11 @@ def pack(target, files):
 
 
 def write_zip(target, files):
-    """Write a zip file; the same files give the same bytes.
+    """Write a reproducible zip file: the same files give the same bytes.
 
     Parameters
     ----------
-    target : Path or file to write
+    target : Path or writable file
     files : dict, name to bytes
     """
     with zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED) as packed:
@@ -112,10 +103,17 @@ def write_zip(target, files):
             packed.writestr(info, data)
 
 
+def _write_folder(folder, files):
+    for name, data in files.items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_bytes(data)
+
+
 def _files(root, folders, names):
     paths = [root / name for name in names]
     for folder in folders:
-        paths += [path for path in (root / folder).rglob("*") if path.is_file()]
+        path = root / folder
+        paths += [path] if path.is_file() else [p for p in path.rglob("*") if p.is_file()]
     return {
         path.relative_to(root).as_posix(): path.read_bytes()
         for path in paths
@@ -123,35 +121,36 @@ def _files(root, folders, names):
     }
 
 
-def marks(cell):
-    """What a cell is marked as: its slide type and its tags, a set."""
-    metadata = cell["metadata"]
-    return {metadata.get("slideshow", {}).get("slide_type"), *metadata.get("tags", [])}
-
-
 def main(argv=None):
-    """Run the command line; returns its exit code."""
+    """Run the command line and return its exit code."""
     parser = argparse.ArgumentParser(prog="python -m course.pack", description=__doc__)
-    parser.add_argument("--lecturer", action="store_true", help="with solutions and notes")
-    parser.add_argument("--no-pages", action="store_true", help="without the lessons as pages")
+    parser.add_argument("--lecturer", action="store_true", help="include solutions and notes")
+    parser.add_argument("--no-pages", action="store_true", help="omit the lessons' HTML pages")
+    parser.add_argument("--folder", type=Path, help="write into this folder, without pages")
     options = parser.parse_args(argv)
+    if options.folder:
+        _write_folder(options.folder, contents())
+        return 0
     target = Path(f"{TOP}-lecturer.zip" if options.lecturer else f"{TOP}.zip")
     if options.lecturer:
-        files, said = lecturers_contents(), "with solutions and notes: not for students"
+        files, contains = lecturers_contents(), "with solutions and notes, not for students"
     else:
-        from course.site import building, in_pack  # which need what packing alone does not
+        from course.site import (  # they need packages that packing alone does not
+            building,
+            student_pack_pages,
+        )
 
         try:
-            pages = {} if options.no_pages else in_pack.pages()
+            pages = {} if options.no_pages else student_pack_pages.pages()
         except building.SiteError as error:
-            print(f"{error}\n--no-pages packs without the lessons' pages", file=sys.stderr)
+            print(f"{error}\nAdd --no-pages to pack without the lessons' pages.", file=sys.stderr)
             return 1
-        files, said = contents(pages=pages), "without solutions"
+        files, contains = contents(pages=pages), "without solutions"
     pack(target, files)
     size = target.stat().st_size
-    print(f"{target}: {size / 1e6:.1f} MB, {said}")
+    print(f"{target}: {size / 1e6:.1f} MB, {contains}")
     if not options.lecturer and size > LARGEST:
-        print(f"more than {LARGEST / 1e6:.0f} MB: too much to hand out", file=sys.stderr)
+        print(f"The pack is larger than {LARGEST / 1e6:.0f} MB.", file=sys.stderr)
         return 1
     return 0
 

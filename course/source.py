@@ -1,4 +1,5 @@
-"""Parse the text sources of the course: percent scripts (jupytext) to cells with stable ids."""
+"""Parser for the course's text sources: it converts percent scripts (jupytext) to cells with stable
+ids."""
 
 import re
 import unicodedata
@@ -9,9 +10,10 @@ import jupytext
 from nbformat import NotebookNode
 
 ROOT = Path(__file__).resolve().parent.parent
-KINDS = {"lessons": "lesson", "exercises": "exercise"}
+KINDS = {"lessons": "lesson", "exercises": "exercise", "appendices": "appendix"}
+PATTERNS = {"lessons": "*.py", "exercises": "ex*/notebook.py", "appendices": "*.py"}
 METADATA = ("name", "slideshow", "tags", "answers", "minutes", "solved", "given")
-OPTIONAL = ("## Deeper", "## In print", "## Appendix")
+OPTIONAL = ("## Deeper", "## Appendix")
 CHECK = re.compile(r'check\("([^"\\]+)"\)')
 ID = re.compile(r"[a-zA-Z0-9_-]{1,64}")
 
@@ -41,10 +43,10 @@ class Cell:
     ----------
     type : str, "markdown" or "code" ("raw" is rejected by the lint)
     text : str
-    id : str, the name given, else the section's slug and an ordinal
+    id : str, the given name, or the section's slug and an ordinal
     line : int, line of the cell's marker in the file
     metadata : dict, as written in the marker
-    given : str or None, what is handed out in its place, where all of it is a solution
+    given : str or None, the text handed out instead, if the whole cell is a solution
     """
 
     type: str
@@ -76,19 +78,19 @@ class Cell:
 
     @property
     def check(self):
-        """The task's id where the cell is a check and nothing else, or None."""
+        """The task's id if the cell contains only a check, or None."""
         match = CHECK.fullmatch(self.text.strip()) if self.type == "code" else None
         return match[1] if match else None
 
 
 @dataclass(frozen=True)
 class Source:
-    """The source of one lesson or exercise.
+    """The source of one lesson, exercise or appendix.
 
     Parameters
     ----------
     path : Path
-    kind : str, "lesson" or "exercise"
+    kind : str, "lesson", "exercise" or "appendix"
     cells : list of Cell
     """
 
@@ -98,26 +100,42 @@ class Source:
 
     @property
     def number(self):
-        """The number the file's name starts with, such as "04"."""
-        return self.path.stem.split("_")[0]
+        """The number at the start of the file name, such as "04"; of an appendix, its name."""
+        return self.topic if self.kind == "appendix" else self.topic.split("_")[0]
+
+    @property
+    def topic(self):
+        """The name of the source with its number, such as "04_models_and_jacobians"."""
+        return topic(self.path)
 
     @property
     def prefix(self):
-        """What the ids of its questions begin with: its number, of an exercise such as "ex04"."""
+        """The prefix of the question ids: "04" for a lesson, "ex04" for an exercise."""
         return f"ex{self.number}" if self.kind == "exercise" else self.number
 
     @property
     def file(self):
-        """The name of its notebooks."""
+        """The file name of the source's notebooks."""
         return file_name(self.path)
 
     def at(self, cell, line=0):
-        """The place of a cell's line (counted from 1; 0 is the marker) as "file:line"."""
+        """Return "file:line" for a line of a cell (from 1; 0 is the marker)."""
         return f"{_relative(self.path)}:{cell.line + line}"
 
 
+def kind_folder(path):
+    """Return the folder of all sources of a source's kind, such as ``course/lessons``."""
+    return path.parents[1] if path.name == "notebook.py" else path.parent
+
+
+def topic(path):
+    """Return the name of a source with its number, such as "04_models_and_jacobians"."""
+    return path.parent.name.removeprefix("ex") if path.name == "notebook.py" else path.stem
+
+
 def file_name(path):
-    """The name of a source's notebooks; an exercise's begins with ex, so that tabs tell it apart.
+    """Return the name of a source's notebooks; the prefix "ex" distinguishes exercises from lessons
+    in tabs.
 
     Parameters
     ----------
@@ -127,25 +145,33 @@ def file_name(path):
     -------
     str
     """
-    return f"{'ex' if path.parent.name == 'exercises' else ''}{path.stem}.ipynb"
+    return f"{'ex' if kind_folder(path).name == 'exercises' else ''}{topic(path)}.ipynb"
 
 
-def sources(root=ROOT):
+def sources(root=ROOT, folder=None):
     """List every source of the course, lessons first.
 
     Parameters
     ----------
     root : Path, the project's folder
+    folder : str, one of :data:`KINDS`, or None for all
 
     Returns
     -------
     list of Path
     """
-    return [path for kind in KINDS for path in sorted((root / "course" / kind).glob("*.py"))]
+    folders = [folder] if folder else KINDS
+    return [p for each in folders for p in sorted((root / "course" / each).glob(PATTERNS[each]))]
+
+
+def numbered(number, folder, root=ROOT):
+    """Return the source with this number, such as "06", in a folder of :data:`KINDS`, or None."""
+    found = (path for path in sources(root, folder) if topic(path).startswith(f"{number}_"))
+    return next(found, None)
 
 
 def read(path):
-    """Read and parse a source; its kind is told by its folder, ``lessons`` or ``exercises``.
+    """Read and parse a source; its folder, such as ``lessons``, determines its kind.
 
     Parameters
     ----------
@@ -157,7 +183,7 @@ def read(path):
 
     Raises
     ------
-    CourseError : where the text cannot be cut into cells
+    CourseError : the text cannot be divided into cells
     """
     path = Path(path)
     text = path.read_text(encoding="utf-8")
@@ -166,33 +192,34 @@ def read(path):
     if len(raw) != len(markers):
         first = markers[0] if markers else 1
         raise CourseError(
-            [f"{_relative(path)}:{first}: begin with a cell marker `# %%`, none inside a string"]
+            [f"{_relative(path)}:{first}: begin with a cell marker `# %%`, never in a string"]
         )
-    if path.parent.name not in KINDS:
-        raise CourseError([f"{_relative(path)}:1: a source stands in {' or '.join(KINDS)}"])
+    if kind_folder(path).name not in KINDS:
+        raise CourseError([f"{_relative(path)}:1: a source must be in {' or '.join(KINDS)}"])
     ids = _ids(raw)
     cells = [
         _from_files(path, Cell(c.cell_type, c.source, id, line, _metadata(c)))
         for c, id, line in zip(raw, ids, markers, strict=True)
     ]
-    return Source(path, KINDS[path.parent.name], cells)
+    return Source(path, KINDS[kind_folder(path).name], cells)
 
 
 def slug(text):
-    """A heading as part of an id: lower-case ASCII words joined by hyphens, at most 40 letters."""
+    """Convert a heading to a part of an id: lower-case ASCII words with hyphens, at most 40
+    characters."""
     ascii_text = unicodedata.normalize("NFKD", text).encode("ascii", "ignore").decode()
     words = re.sub(r"[^a-z0-9]+", "-", ascii_text.lower()).strip("-")
     return words[:40].rstrip("-") or "section"
 
 
 def heading(text):
-    """The first heading of level 1 or 2 in a markdown text, or None."""
+    """Return the first heading of level 1 or 2 in a Markdown text, or None."""
     lines = (_HEADING.fullmatch(line.strip()) for line in text.splitlines())
     return next((match[1] for match in lines if match), None)
 
 
 def main_line(cells):
-    """The cells before the optional sections that may end a lesson: Deeper, In print, Appendix.
+    """Return the cells of a lesson before its optional sections (Deeper, Appendix).
 
     Parameters
     ----------
@@ -223,7 +250,7 @@ def _ids(raw):
 
 
 def _metadata(cell: NotebookNode):
-    # jupytext notes how the text was laid out; that is none of the notebook's business
+    # jupytext records the layout of the text, which the notebook does not need
     layout = ("lines_to_next_cell", "lines_to_end_of_cell_marker", "cell_marker")
     return {k: _plain(v) for k, v in cell.metadata.items() if k not in layout}
 
@@ -235,15 +262,17 @@ def _plain(value):
 
 
 def _from_files(path, cell):
-    """A cell that stands in two files of the course, ``solved`` and ``given``; else as it is."""
+    """Return a cell with the text of the two files ``solved`` and ``given``, if the cell names
+    them."""
     if "solved" not in cell.metadata:
         return cell
-    files = [path.parents[1] / cell.metadata.get(name, "") for name in ("solved", "given")]
+    course = kind_folder(path).parent
+    files = [course / cell.metadata.get(name, "") for name in ("solved", "given")]
     missing = [file for file in files if not file.is_file()]
     if missing:
         at = f"{_relative(path)}:{cell.line}"
         raise CourseError(
-            [f"{at}: {_relative(missing[0])} is no file: solved= and given= name two"]
+            [f"{at}: {_relative(missing[0])} does not exist: solved= and given= name two files"]
         )
     solved, given = (file.read_text(encoding="utf-8").rstrip("\n") for file in files)
     return replace(cell, text=solved, given=given)

@@ -1,6 +1,6 @@
-"""Visible code of a lesson: what is to be read is short, imports and drawings are folded."""
+"""Linter for the amount of visible code in a lesson; imports and plotting code are folded."""
 
-from slamlab.coursework.overview import QUESTION
+from classroom.coursework.progress_overview import QUESTION
 
 MOST = 250  # lines of a lesson that a reader sees without opening anything
 MOST_IN_A_CELL = 12  # lines, unless the code is the subject
@@ -8,7 +8,7 @@ FOLDED, SUBJECT = "folded", "code"  # tags
 
 
 def lines(cell):
-    """Number of lines of code that a reader sees: not those of questions, blank ones, comments.
+    """Count the lines of code that a reader sees, except for questions, blank lines and comments.
 
     Parameters
     ----------
@@ -25,14 +25,15 @@ def lines(cell):
 
 
 def problems(source):
-    """Problems of a lesson with too much code to read, as (cell, text)."""
+    """Yield (cell, text) for each place with too much visible code in a lesson."""
     for cell in source.cells:
         if lines(cell) > MOST_IN_A_CELL and SUBJECT not in cell.tags:
             yield (
                 cell,
-                f"{lines(cell)} lines of code to read, at most {MOST_IN_A_CELL}: split it; tag it "
-                f"{FOLDED!r} where nobody needs to read it, {SUBJECT!r} where it is the subject",
+                f"{lines(cell)} lines of visible code, at most {MOST_IN_A_CELL}: split the cell, "
+                f"tag it {FOLDED!r} if readers can skip it, or {SUBJECT!r} if the code is the "
+                "subject",
             )
     total = sum(map(lines, source.cells))
     if total > MOST:
-        yield source.cells[0], f"{total} lines of code to read in the lesson, at most {MOST}"
+        yield source.cells[0], f"{total} lines of visible code in the lesson, at most {MOST}"

@@ -1,8 +1,11 @@
-"""Makes the pictures of the README: ``python docs/make_pictures.py [NAME ...]``.
+"""Makes the pictures of README and guides: ``python docs/make_pictures.py [NAME ...]``.
 
 The Intel map needs the recording (``SLAMLAB_DATA`` or ``data/``), the picture of a check Chromium.
 """
 
+import io
+import os
+import re
 import shutil
 import subprocess
 import sys
@@ -13,6 +16,7 @@ import nbformat
 import numpy as np
 from nbclient import NotebookClient
 from nbconvert import HTMLExporter
+from PIL import Image
 
 from slamlab import estimators, sources, views
 from slamlab.estimators.runner import run
@@ -22,7 +26,7 @@ from slamlab.layers import Points, Poses
 DOCS = Path(__file__).resolve().parent
 MOST = 150_000  # of a picture [bytes]
 
-SET_UP = "import numpy as np\nfrom slamlab.checks import check"
+SET_UP = "import numpy as np\nfrom classroom.checks import check"
 MISTAKE = '''\
 def next_pose(pose, step):
     """The pose after a step: forward, left and turn, measured in the frame of the pose before."""
@@ -33,27 +37,35 @@ def next_pose(pose, step):
 
 
 def intel():
-    """A real robot's log: what its wheels draw, and what scans and closed loops make of it."""
+    """A real robot's log: the map by odometry alone, and by scan matching with closed loops."""
     source = sources.open(sources.recording("intel"))
     title = "Intel Research Lab: "
     return before_and_after(source, "graph", (11, 5.5), title, thin=2, shared=False)
 
 
-def polygon():
-    """The cardboard polygon of the thesis, given odometry that is wrong on purpose."""
-    source = sources.open("sim:polygon-wrong", np.random.default_rng(1))
-    return before_and_after(source, "icp", (9, 4.4), "Cardboard polygon: ")
-
-
 def situations():
-    """Smolec's two situations: walls in blue, what EKF-SLAM with walls makes of the scans."""
+    """The two situations of lesson 09, mapped by EKF-SLAM with walls."""
     panels = {}
     for name in ("situation-1", "situation-2"):
         source = sources.open(f"sim:{name}", np.random.default_rng(1))
         result = run(source, estimators.make("walls", source))
-        wheels = Poses("naive", result.naive.poses)
-        panels[f"{name}: EKF-SLAM with walls"] = [wheels, *result.estimator.layers()]
+        odometry = Poses("naive", result.naive.poses)
+        panels[f"{name}: EKF-SLAM with walls"] = [odometry, *result.estimator.layers()]
     return views.png(views.side_by_side(panels, (11, 5.2), shared=False)[0])
+
+
+def flat():
+    """A simulated flat, mapped by the scans of a lidar in somebody's hand, and the path."""
+    source = sources.open("sim:flat-carried")
+    result = run(source, estimators.make("graph", source))
+    figure, axes = views.axes("A flat, mapped by a lidar carried by hand", size=(8, 6))
+    for layer in result.estimator.layers():
+        if isinstance(layer, Points):
+            views.draw(axes, layer, label="map")
+    trajectory = Poses("robot", result.trajectory.poses)
+    views.draw(axes, trajectory, label="estimated trajectory")
+    views.legend_below(figure)
+    return views.png(figure)
 
 
 def before_and_after(source, estimator, size, title, thin=1, shared=True):
@@ -71,13 +83,24 @@ def before_and_after(source, estimator, size, title, thin=1, shared=True):
 
 
 def check():
-    """A wrong solution and what the check says of it, as the notebook shows them."""
+    """A wrong solution and the result of its check, as the notebook shows them."""
     cells = [nbformat.v4.new_code_cell(text) for text in (SET_UP, MISTAKE, 'check("01-next-pose")')]
     notebook = nbformat.v4.new_notebook(cells=cells)
     NotebookClient(notebook, kernel_name="python3").execute()
     del notebook.cells[0]
     page, _ = HTMLExporter(mathjax_url="", require_js_url="").from_notebook_node(notebook)
     return photograph(page, (1000, 465))
+
+
+def library():
+    """The picture that the first example of library.md draws."""
+    text = (DOCS / "library.md").read_text(encoding="utf-8")
+    code = re.search(r"^```python\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)[1]
+    with tempfile.TemporaryDirectory() as folder:
+        environment = os.environ | {"PYTHONPATH": str(DOCS.parent)}
+        for words in (["-m", "slamlab", "convert", "sim:room", "robot.readings"], ["-c", code]):
+            subprocess.run([sys.executable, *words], cwd=folder, env=environment, check=True)
+        return Path(folder, "map.png").read_bytes()
 
 
 def photograph(page, size):
@@ -94,7 +117,20 @@ def photograph(page, size):
         return png.read_bytes()
 
 
-PICTURES = {"intel": intel, "polygon": polygon, "situations": situations, "check": check}
+def with_few_colours(picture):
+    """A PNG with a palette of 64 colours, which is a third as large and looks the same."""
+    packed = io.BytesIO()
+    Image.open(io.BytesIO(picture)).convert("RGB").quantize(64).save(packed, "PNG", optimize=True)
+    return packed.getvalue()
+
+
+PICTURES = {
+    "intel": intel,
+    "flat": flat,
+    "situations": situations,
+    "check": check,
+    "library": library,
+}
 
 
 def main(names):
@@ -102,7 +138,7 @@ def main(names):
     for name in names or PICTURES:
         if name not in PICTURES:
             sys.exit(f"no picture {name!r}: there are {', '.join(PICTURES)}")
-        picture = PICTURES[name]()
+        picture = with_few_colours(PICTURES[name]())
         if len(picture) > MOST:
             sys.exit(f"{name}: {len(picture)} bytes, more than {MOST}")
         (DOCS / f"{name}.png").write_bytes(picture)

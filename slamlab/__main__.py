@@ -1,4 +1,4 @@
-"""``python -m slamlab``: the command, where its name is not on the path."""
+"""``python -m slamlab`` runs the command ``slamlab`` even if the command is not on the path."""
 
 import sys
 

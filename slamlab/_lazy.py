@@ -1,49 +1,35 @@
-"""Lazy doors: the names that a room offers, each imported only when it is asked for.
-
-A worker of the grader holds some modules of a room and not those that answer its exercise, so the
-``__init__`` of such a room may import no more than is asked for.
-"""
+"""Lazy imports: each public name of a package is imported at its first use (PEP 562)."""
 
 import importlib
 import sys
 from types import ModuleType
 
 
-class Room(ModuleType):
-    """A package with a lazy door: ``_homes`` leads from a name that it offers to its module."""
+class LazyPackage(ModuleType):
+    """Package with lazy imports; ``_modules`` maps each public name to its module."""
 
     def __getattr__(self, name):
-        if name not in self._homes:
+        if name not in self._modules:
             raise AttributeError(f"module {self.__name__!r} has no attribute {name!r}")
-        value = getattr(importlib.import_module(self._homes[name], self.__name__), name)
-        vars(self)[name] = value  # the next time it is found without asking
+        value = getattr(importlib.import_module(self._modules[name], self.__name__), name)
+        vars(self)[name] = value  # cached: __getattr__ is not called again
         return value
 
     def __dir__(self):
-        return vars(self).keys() | self._homes.keys()
+        return vars(self).keys() | self._modules.keys()
 
     def __setattr__(self, name, value):
-        # importing a module sets it on its package: never over a name that the door offers
-        if not (name in self._homes and isinstance(value, ModuleType)):
+        # the import of a submodule must not replace a public name
+        if not (name in self._modules and isinstance(value, ModuleType)):
             super().__setattr__(name, value)
 
     def __reduce__(self):  # pickled by name, as other modules are by cloudpickle
         return importlib.import_module, (self.__name__,)
 
 
-def exports(room, modules):
-    """Give a package its lazy door.
-
-    Parameters
-    ----------
-    room : str, the package's ``__name__``
-    modules : dict, module (relative to the room, or in full) to the names that it gives
-
-    Returns
-    -------
-    list of str, its ``__all__``
-    """
-    package = sys.modules[room]
-    package._homes = {name: module for module, names in modules.items() for name in names}
-    package.__class__ = Room
-    return sorted(package._homes)
+def exports(package_name, modules):
+    """Set the lazy imports {module: names} of a package and return its ``__all__``."""
+    package = sys.modules[package_name]
+    package._modules = {name: module for module, names in modules.items() for name in names}
+    package.__class__ = LazyPackage
+    return sorted(package._modules)

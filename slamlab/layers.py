@@ -1,4 +1,4 @@
-"""Layers, what an estimator shows: named plain arrays for :mod:`slamlab.views` to draw."""
+"""Layers of an estimator's drawing: named plain arrays that :mod:`slamlab.views` draws."""
 
 from dataclasses import dataclass
 
@@ -7,7 +7,7 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Points:
-    """A point cloud, (n, 2) points [m], such as a map or the present scan."""
+    """Point cloud (n, 2) [m], such as a map or the current scan."""
 
     name: str
     xy: np.ndarray
@@ -23,7 +23,7 @@ class Segments:
 
 @dataclass(frozen=True)
 class Poses:
-    """Poses, (n, 3) [m, m, rad]: a robot (one row) or its trajectory (many)."""
+    """Poses (n, 3) [m, m, rad]: a robot (one row) or its trajectory (many)."""
 
     name: str
     rows: np.ndarray
@@ -31,7 +31,7 @@ class Poses:
 
 @dataclass(frozen=True)
 class Ellipses:
-    """Covariance ellipses: (n, 2) centres [m] and (n, 2, 2) covariances [m²]."""
+    """Covariance ellipses: centres (n, 2) [m], covariances (n, 2, 2) [m²]."""
 
     name: str
     centres: np.ndarray
@@ -47,8 +47,8 @@ class Boxes:
 
 
 @dataclass(frozen=True)
-class Samples:
-    """Particles (samples): (n, 2) or (n, 3) with (n,) weights that sum to one."""
+class Particles:
+    """Particles (n, 2) or (n, 3), with normalised weights (n,)."""
 
     name: str
     rows: np.ndarray
@@ -56,14 +56,14 @@ class Samples:
 
 
 OCCUPIED = 0.65
-"""Occupancy probability beyond which a grid cell is called occupied, as by ROS' map_server."""
+"""Occupancy probability above which a grid cell is occupied, as in ROS map_server."""
 
 
 @dataclass(frozen=True)
 class Grid:
-    """An occupancy grid: (rows, columns) probabilities that cells of a side [m] are occupied.
+    """Occupancy grid: (rows, columns) occupancy probabilities of cells with a side [m].
 
-    0.5 is unknown. ``origin`` (2,) is the lower left corner of cell (0, 0) [m]; row 0 lies lowest.
+    0.5 means unknown. ``origin`` (2,) is the lower left corner of cell (0, 0) [m]; row 0 is lowest.
     """
 
     name: str
@@ -72,4 +72,4 @@ class Grid:
     side: float
 
 
-Layer = Points | Segments | Poses | Ellipses | Boxes | Samples | Grid
+Layer = Points | Segments | Poses | Ellipses | Boxes | Particles | Grid

@@ -1,4 +1,4 @@
-"""Parallel Monte Carlo runs: on a process pool of this machine, or on a Dask cluster."""
+"""Parallel Monte Carlo trials (runs) in a process pool on this machine or on a Dask cluster."""
 
 import multiprocessing
 import os
@@ -7,7 +7,9 @@ from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
 from functools import partial
 
-# environment variables of BLAS and OpenMP; one run a core: its threads would only fight for it
+from slamlab.extras import ExtraMissing, needs
+
+# environment variables of BLAS and OpenMP: each run uses one core and one thread
 THREAD_VARIABLES = (
     "OMP_NUM_THREADS",
     "OPENBLAS_NUM_THREADS",
@@ -17,31 +19,18 @@ THREAD_VARIABLES = (
 
 
 class RunError(RuntimeError):
-    """A parallel run failed; the text names its seed and what went wrong."""
+    """A parallel run failed; the message contains the seed and the error."""
 
 
 def map_runs(function, seeds, jobs=None, scheduler=None):
-    """Map a function over seeds in parallel; results in the order of the seeds.
+    """Map a function over seeds in parallel and return the results in the order of the seeds.
 
-    Parameters
-    ----------
-    function : callable(seed), importable by name: other processes have to find it
-    seeds : iterable of int
-    jobs : int, processes to use, every core by default; 1 runs them here, one after the other
-    scheduler : str, address of a Dask scheduler, such as tcp://host:8786, in place of processes
-
-    Returns
-    -------
-    list
-
-    Raises
-    ------
-    RunError : a run failed, or the cluster cannot be used
-    ValueError : jobs below 1
+    function : importable by name; jobs : number of processes, by default one per core (1: only this
+    process); scheduler : Dask scheduler, such as tcp://host:8786. Raises RunError, ValueError.
     """
     seeds = list(seeds)
     if jobs is not None and jobs < 1:
-        raise ValueError(f"jobs is the number of processes, at least 1, not {jobs}")
+        raise ValueError(f"jobs, the number of processes, must be at least 1, not {jobs}")
     named = partial(_run_seed, function)
     if scheduler is not None:
         return _on_cluster(named, seeds, scheduler)
@@ -52,7 +41,6 @@ def map_runs(function, seeds, jobs=None, scheduler=None):
 
 
 def _run_seed(function, seed):
-    """Run one seed; an error names it."""
     try:
         return function(seed)
     except Exception as error:
@@ -60,20 +48,20 @@ def _run_seed(function, seed):
 
 
 def _on_processes(function, seeds, jobs):
-    # spawned, not forked: the same on every system, and BLAS reads its threads at its start
+    # spawn, not fork: the same on every system, and BLAS reads the number of threads at its start
     context = multiprocessing.get_context("spawn")
     with ProcessPoolExecutor(jobs, mp_context=context, initializer=_default_sigint) as pool:
         try:
             with _single_threaded(), _sigint_blocked():
                 futures = [pool.submit(function, seed) for seed in seeds]
             return [future.result() for future in futures]
-        except BaseException:  # an interrupt too: what has not begun is not begun
+        except BaseException:  # also after an interrupt, pending runs are cancelled
             pool.shutdown(wait=False, cancel_futures=True)
             raise
 
 
 def _default_sigint():
-    """Worker initialiser: Ctrl-C reaches every process; a worker just ends, without a traceback."""
+    """Initialise a worker process so that Ctrl-C ends the process without a traceback."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     if hasattr(signal, "pthread_sigmask"):
         signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGINT])
@@ -81,10 +69,7 @@ def _default_sigint():
 
 @contextmanager
 def _sigint_blocked():
-    """Block SIGINT (Ctrl-C) until the processes are started, and in them until they can take it.
-
-    Where signals cannot be held (Windows), one in that moment shows a traceback more.
-    """
+    """Block SIGINT until the processes run. Windows cannot block SIGINT."""
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
@@ -97,7 +82,7 @@ def _sigint_blocked():
 
 @contextmanager
 def _single_threaded():
-    """Single-threaded BLAS: processes started meanwhile compute on one thread each."""
+    """Limit each process that is started in this context to one BLAS thread."""
     before = {name: os.environ.get(name) for name in THREAD_VARIABLES}
     os.environ.update(dict.fromkeys(THREAD_VARIABLES, "1"))
     try:
@@ -112,15 +97,14 @@ def _single_threaded():
 
 def _on_cluster(function, seeds, scheduler):
     try:
-        from distributed import Client
-    except ImportError:
-        raise RunError(
-            'a scheduler needs Dask, which is not installed: pip install "slamlab[dask]"'
-        ) from None
+        with needs("cluster"):
+            from distributed import Client
+    except ExtraMissing as error:
+        raise RunError(str(error)) from None
     try:
         client = Client(scheduler, timeout="10s")
     except (OSError, ValueError) as error:
-        raise RunError(f"no Dask scheduler answers at {scheduler}: {error}") from None
+        raise RunError(f"the Dask scheduler at {scheduler} does not answer: {error}") from None
     with client:
         futures = client.map(function, seeds, pure=False)
         try:

@@ -1,53 +1,42 @@
-"""Sensor data that a source yields: lidar scans, landmark observations, readings; trajectories."""
+"""Sensor data of a source: scans, landmark observations, readings, odometry; trajectories."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
 
 @dataclass(frozen=True)
 class Scan:
-    """A range scan (lidar): one turn of a range sensor, in the robot's frame.
+    """A range scan (lidar): one revolution of a range sensor, in the robot's frame.
 
-    Parameters
-    ----------
-    angles : (n,) directions, counter-clockwise from the robot's +x [rad]
-    ranges : (n,) distances [m]; NaN where nothing came back
-    range_max : float [m]; a reading at or beyond it is no return
-    range_min : float [m]
+    angles : (n,) counter-clockwise from +x [rad]; ranges : (n,) [m], NaN: no return; times : (n,)
+    times of the beams relative to the reading's time [s], if the scan is not deskewed yet.
     """
 
     angles: np.ndarray
     ranges: np.ndarray
     range_max: float = np.inf
     range_min: float = 0.0
+    times: np.ndarray | None = None
 
     @property
     def valid(self):
-        """(n,) bool mask of the valid beams, that hit something within range."""
+        """Mask (n,) of the beams with a return between range_min and range_max."""
         with np.errstate(invalid="ignore"):
             return (self.ranges > self.range_min) & (self.ranges < self.range_max)
 
     def points(self):
-        """The scan as a point cloud: (k, 2) points hit, in the robot's frame [m], in beam order.
-
-        Equation (02.3).
-        """
+        """Return the point cloud (k, 2) [m] of the scan in beam order. Equation (02.3)."""
         r, a = self.ranges[self.valid], self.angles[self.valid]
         return np.column_stack([r * np.cos(a), r * np.sin(a)])
 
 
 @dataclass(frozen=True)
 class Observations:
-    """Landmark observations (measurements) of one moment: range, bearing, id; how corners open.
+    """Landmark observations (measurements) at one time; unknown values are None.
 
-    Parameters
-    ----------
-    z : (m, 2) range [m] and bearing [rad]
-    ids : (m,) int; -1 where the landmark is not known
-    R : (m, 2, 2) covariances of z, or None where they are as the sensor's model says
-    bisectors : (m,) of corners, direction between the two walls in the robot's frame, or None [rad]
-    convex : (m,) bool, of corners, whether they are seen from outside, as a box's; or None
+    z : (m, 2) range [m], bearing [rad]; ids : (m,) int, −1: unknown; R : (m, 2, 2) covariances; for
+    corners, bisectors : (m,) directions between the two walls [rad]; convex : (m,) bool.
     """
 
     z: np.ndarray
@@ -57,26 +46,21 @@ class Observations:
     convex: np.ndarray | None = None
 
     def subset(self, rows):
-        """The observations of some rows (k,), all of each."""
+        """Return the observations in the given rows (k,)."""
         parts = vars(self).items()
         return Observations(**{k: None if part is None else part[rows] for k, part in parts})
 
 
 @dataclass(frozen=True)
 class Reading:
-    """One time step of sensor data: odometry increment, scan and landmark observations.
+    """Sensor data of one time step: time [s]; control, the command (control input) of the robot.
 
-    Parameters
-    ----------
-    time : float [s]
-    odometry : (3,) increment since the last reading, in the frame of the pose then [m, m, rad]
-    scan : Scan or None
-    observations : Observations or None
-    control : (k,) array or None, the command that was driven (its meaning: the source's robot)
+    odometry : (3,) odometry increment since the last reading, in the frame of the last pose; None
+    means no odometry, unlike an increment of zero.
     """
 
     time: float
-    odometry: np.ndarray = field(default_factory=lambda: np.zeros(3))
+    odometry: np.ndarray | None = None
     scan: Scan | None = None
     observations: Observations | None = None
     control: np.ndarray | None = None
@@ -84,13 +68,7 @@ class Reading:
 
 @dataclass(frozen=True)
 class Trajectory:
-    """A trajectory: timestamped poses.
-
-    Parameters
-    ----------
-    times : (n,) [s], increasing
-    poses : (n, 3) [m, m, rad]
-    """
+    """Trajectory: times (n,) [s], ascending; poses (n, 3) [m, m, rad]."""
 
     times: np.ndarray
     poses: np.ndarray

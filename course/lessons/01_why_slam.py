@@ -1,48 +1,60 @@
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=1
 # # 01 · Why SLAM
 #
-# **Afterwards you will be able to** explain why a robot that only counts the turns of its wheels
-# cannot draw a map, predict how fast its error grows, and say what SLAM adds.
+# **Afterwards you will be able to** compute a trajectory by dead reckoning, predict how fast its
+# error grows with the distance, explain why its map is not consistent, and state what SLAM estimates.
 #
-# **45 minutes.** **Before:** [00 · Start here](00_start_here.ipynb); sine, cosine and the standard
-# deviation, as you know them from school.
+# **55 minutes.** **Before:** [00 · Start here](00_start_here.ipynb); sine, cosine and the standard
+# deviation, as taught at school.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* one idea carries this lesson: a map is only as good as the poses it is drawn
-# from. Poll the class on the first question before you run anything. If time is short, leave out
-# "How errors grow": the exercise comes back to it.
+# *For the lecturer:* this lesson has one main idea: a map is only as good as the poses from which it
+# is drawn. Poll the class on the first question before you run any cell. If time is short, leave
+# out "Random errors": the exercise returns to this subject.
 
 # %% slideshow={"slide_type": "skip"} name="imports" tags=["folded"]
 from itertools import accumulate
 
 import numpy as np
 
+from classroom.checks import ask, compare
+from course.studies import intel_maps
 from slamlab import estimators, sources, views
-from slamlab.checks import ask
 from slamlab.estimators import run
 from slamlab.geometry import between, compose, transform
 from slamlab.layers import Points, Poses, Segments
-from slamlab.studies import intel_maps
+from slamlab.simulation.differential_drive import arc
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
-# ## A robot that counts the turns of its wheels
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=7
+# ## Odometry, poses and frames
 #
-# A robot drives one lap through a corridor, 2 m wide, round a rectangular block. It has two driven
-# wheels, each with a counter (an *encoder*), and a lidar that measures the distance to the walls in
-# 400 directions. The robot is simulated, so that we know where it really was.
+# A robot drives one lap around a rectangular block, through a corridor that is 2 m wide. Can the robot compute
+# its position by counting the turns of its wheels? Each of its two driven wheels has a counter (an *encoder*).
+# The robot also carries a lidar, which measures the distance to the walls in 400 directions.
 #
-# At short intervals it delivers a **reading**, which has two parts:
+# The **pose** of a robot is its position and its heading, $x$, $y$ and $\theta$. The pose is given in the **world
+# frame** (also *global frame* or *map frame*), a coordinate system that does not move. The robot measures in
+# its own coordinate system, the **robot frame** (also *body frame*). The origin of this frame is the middle
+# between the two wheels, its $x$ axis points ahead, and its $y$ axis points to the left.
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# ### Readings
 #
-# - the **odometry**: how far the robot has moved and turned since the last reading, as its wheels
-#   tell it, in the frame of the pose that it had then;
-# - the **scan**: one turn of the lidar.
+# The poses over time are the **trajectory** (also *path*). At short intervals the robot delivers a
+# *reading*, which has two parts:
+#
+# - the **odometry**: an estimate of the motion since the last reading, computed from the encoders
+#   and given in the robot frame of the last reading. The estimate of one such motion is an **odometry increment**;
+# - the **scan**: the distances that the lidar measured during one revolution.
+#
+# The robot is simulated, so its true trajectory is known. The true trajectory is called the **ground truth**.
 
 # %% name="one-reading" tags=["code"]
 robot = sources.open("sim:corridor", np.random.default_rng(3))
 readings = list(robot)
 forward, left, turn = readings[100].odometry
 scan = readings[100].scan
-print(f"{len(readings)} readings; number 100 says:")
+print(f"{len(readings)} readings; the odometry and the scan of number 100:")
 print(f"  {100 * forward:.1f} cm ahead, {100 * left:.1f} cm to the left")
 print(f"  turned by {np.degrees(turn):.2f}°")
 print(f"  {scan.valid.sum()} of {len(scan.ranges)} beams came back")
@@ -50,86 +62,132 @@ print(f"  {scan.valid.sum()} of {len(scan.ranges)} beams came back")
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Dead reckoning
 #
-# Where is the robot? It can chain its steps, so that each begins where the one before ended.
-# Sailors out of sight of land called this **dead reckoning**. If the robot stands at pose $a$ and
+# Where is the robot? It can compose its odometry increments, so that each increment begins where the previous
+# one ended. This method is called **dead reckoning**, a term of sailors who have no land in sight. If the robot
+# is at pose $a$ and
 # makes a step $b$, measured in its own frame, the new pose is
 #
 # $$ a \oplus b = \left( \begin{pmatrix} x_a \\ y_a \end{pmatrix} + \mathrm{Rot}(\theta_a)
 # \begin{pmatrix} x_b \\ y_b \end{pmatrix},\; \theta_a + \theta_b \right), \tag{01.1} $$
 #
-# where $\mathrm{Rot}(\theta)$ rotates a vector by the angle $\theta$: "ahead" means something else
-# in the world after every turn. In the package this is `compose(a, b)`.
+# where $\mathrm{Rot}(\theta)$ rotates a vector by the angle $\theta$ from the robot frame to the
+# world frame: after every turn, "ahead" is a different direction in the world. The sum of the angles
+# is wrapped to the interval from −π to π. The operation $\oplus$ is called **pose composition**. The library
+# `slamlab` computes it with `compose(a, b)`.
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# **Your turn.** A robot stands at the position (1 m, 2 m) with heading 90°. It drives half a metre
+# straight ahead. Write down its new pose as an array of $x$, $y$ and $\theta$ (in radians).
+
+# %% slideshow={"slide_type": "fragment"} tags=["your-turn"]
+new_pose = ...  # np.array([x, y, theta])
+compare(new_pose, compose(np.array([1.0, 2.0, np.pi / 2]), np.array([0.5, 0.0, 0.0])))
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# <details><summary>Answer</summary>
+#
+# ```python
+# new_pose = np.array([1.0, 2.5, np.pi / 2])
+# ```
+#
+# At 90° the robot faces along the $y$ axis of the world, so "ahead" adds to $y$.
+#
+# </details>
 
 # %% slideshow={"slide_type": "subslide"} name="ask-gap"
 ask(
     "01-gap",
     "This is a good robot: its wheels differ in size by 0.3 %, the distance between them is "
-    "misjudged by 1 %, and they slip a little. The lap is 42 m long and ends exactly where it began. "
-    "**By how much does dead reckoning miss the start?**",
+    "known with an error of 1 %, and they slip a little. The lap is 42 m long and ends exactly "
+    "where "
+    "it began. **By how much does dead reckoning miss the start?**",
     {
         "by about 10 cm": "this would be 0.3 % of the distance, as if only lengths were wrong.",
-        "by about half a metre": "it is right to expect more than 0.3 % of the distance, but the "
-        "miss is far larger than this.",
-        "by more than 2 m": "wheels that differ also turn the robot, and a turn bends all that "
-        "follows.",
+        "by about half a metre": "you are right to expect more than 0.3 % of the distance, but "
+        "the real error is far larger.",
+        "by more than 2 m": "unequal wheels also turn the robot, and a heading error bends the "
+        "whole trajectory after it.",
     },
     right="by more than 2 m",
 )
 
 
 # %% slideshow={"slide_type": "fragment"} name="dead-reckoning" answers="01-gap" tags=["nbval-check-output"]
-def chain(steps):
-    """All poses of a drive that begins at the origin: (n, 3) relative steps to (n + 1, 3)."""
-    return np.array(list(accumulate(steps, compose, initial=np.zeros(3))))
+def dead_reckoning(increments):
+    """All poses of a run that begins at the origin: increments (n, 3) to poses (n + 1, 3)."""
+    return np.array(list(accumulate(increments, compose, initial=np.zeros(3))))
 
 
 truth = robot.truth.poses
-naive = chain([reading.odometry for reading in readings[1:]])
-gap = between(truth[-1], naive[-1])
-print(f"misses the start by {np.hypot(*gap[:2]):.1f} m, turned by {np.degrees(gap[2]):.0f}°")
+reckoned = dead_reckoning([reading.odometry for reading in readings[1:]])
+gap = between(truth[-1], reckoned[-1])
+print(f"misses the start by {np.hypot(*gap[:2]):.1f} m, heading off by {np.degrees(gap[2]):.0f}°")
 
 # %% slideshow={"slide_type": "subslide"} name="dead-reckoning-picture" answers="01-gap" tags=["folded"]
 fig, ax = views.axes("One lap of the corridor", size=(8, 5.6))
 views.draw(ax, Segments("walls", robot.world.outline()))
-views.draw(ax, Poses("truth", truth))
-views.draw(ax, Poses("naive", naive), label="odometry")
+views.draw(ax, Poses("truth", truth), label="ground truth")
+views.draw(ax, Poses("naive", reckoned), label="dead reckoning")
 views.legend(ax, loc="center")
 views.show(
     fig,
-    alt="The true lap closes; that of the odometry leans over from the first side on, crosses "
-    f"walls and ends {np.hypot(*gap[:2]):.1f} m from its start.",
+    alt="The true trajectory closes; the trajectory by dead reckoning veers off on the first side, "
+    f"crosses walls and ends {np.hypot(*gap[:2]):.1f} m from its start.",
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="01-gap"
-# The true lap, in black, closes. The lap of the odometry leans over more and more, cuts through
-# walls and ends {= np.hypot(*gap[:2]):.1f =} m away from its start. Compare: 0.3 % of 42 m is only
+# The ground truth, in black, closes. The trajectory by dead reckoning veers off more and more, crosses walls
+# and ends {= np.hypot(*gap[:2]):.1f =} m away from its start. An error that accumulates
+# like this with the distance is called **drift**. For comparison, 0.3 % of 42 m is only
 # {= 100 * 0.003 * 42:.0f =} cm. The gap is {= np.hypot(*gap[:2]) / (0.003 * 42):.0f =} times as
-# large, so it is not the length of the steps that does the harm. It is their **direction**.
+# large, so errors in the *lengths* of the increments cannot cause the gap. Errors in the **directions** of the
+# increments cause it.
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=3
-# ## From unequal wheels to a wrong heading
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=4
+# ## The heading error of unequal wheels
 #
-# While the robot moves, its left wheel rolls a distance $s_{\mathrm{left}}$ and its
-# right one $s_{\mathrm{right}}$, on two circles about one centre whose radii differ by the distance $B$
-# between the wheels. The heading therefore changes by
+# While the robot moves, its left wheel rolls a distance $s_{\mathrm{left}}$ and its right one
+# $s_{\mathrm{right}}$, on two circles about one centre. The radii of the circles differ by the
+# distance $B$ between the wheels, and an arc is its radius times its angle. The heading therefore
+# changes by
 #
 # $$ \Delta\theta = \frac{s_{\mathrm{right}} - s_{\mathrm{left}}}{B}. \tag{01.2} $$
 #
-# If one wheel is a little larger than the robot believes, the difference is wrong, and it is divided
-# by a $B$ of only 30 cm.
+# If one wheel is a little larger than the robot assumes, the computed difference is wrong, and (01.2) divides
+# it by a $B$ of only 30 cm. (Lesson [02](02_sensors_and_worlds.ipynb) returns to such a robot, which
+# is called a *differential drive*.)
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# **Your turn.** The left wheel rolls 19 cm and the right one 21 cm, and the wheels are 30 cm apart.
+# By how many radians does the heading change?
+
+# %% slideshow={"slide_type": "fragment"} tags=["your-turn"]
+heading_change = ...  # (01.2), in radians
+compare(heading_change, arc(0.19, 0.21, 0.3)[2])
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# <details><summary>Answer</summary>
+#
+# ```python
+# heading_change = (0.21 - 0.19) / 0.3
+# ```
+#
+# The robot turns by 0.067 rad, or nearly 4°, to the left, because the right wheel rolled farther.
+#
+# </details>
 
 # %% name="ask-turn"
 ask(
     "01-turn",
-    "The wheels differ by 0.3 %, and they stand 0.3 m apart. **By how many degrees is the heading "
-    "wrong after 42 m?** Use (01.2).",
+    "The wheels differ by 0.3 %, and they are 0.3 m apart. **By how many degrees is the heading "
+    "wrong after 42 m, by (01.2)?**",
     right=24.0,
     tolerance=1.0,
     unit="°",
     reason="0.003 · 42 m / 0.3 m is 0.42 rad, which is 24°.",
     wrong={
         0.42: "this is the angle in radians.",
-        0.57: "this is what one metre does, and the robot drives 42 of them.",
+        0.57: "this is the error after one metre, and the robot drives 42 of them.",
         0.126: "this is the difference of the two distances in metres; divide it by B.",
         1.08: "this is 0.3 % of a full turn, but the angle depends on the distance and on B.",
     },
@@ -137,174 +195,228 @@ ask(
 
 # %% slideshow={"slide_type": "fragment"} name="turn" answers="01-turn" tags=["nbval-check-output"]
 turned = np.degrees(robot.robot.turn_per_metre)
-print(f"{turned:.2f}° a metre make {42 * turned:.0f}° in 42 m")
-print(f"in the run above the lap ended turned by {np.degrees(gap[2]):.0f}°")
+print(f"{turned:.2f}° per metre add up to {42 * turned:.0f}° in 42 m")
+print(f"in the run above the heading at the end was off by {np.degrees(gap[2]):.0f}°")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="01-turn"
-# The unequal wheels explain {= 42 * turned:.0f =} of the {= abs(np.degrees(gap[2])):.0f =} degrees;
-# the misjudged distance between the wheels and their slip made the rest. An error of length is
-# added once, when it is made. An error of heading **stays**, and from then on every step goes the
-# wrong way.
+# In this run the unequal wheels explain {= 42 * turned:.0f =} of the
+# {= abs(np.degrees(gap[2])):.0f =} degrees; slip and the wrong distance between the wheels cause the
+# rest. An error of length changes the position once, when it occurs. An error of heading **stays**, and from then
+# on every step goes in the wrong direction.
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
-# ## A map is only as good as its poses
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=6
+# ## A map from poses and scans
 #
-# The scans are good: at 4 m this lidar errs by about
-# {= 100 * np.hypot(0.001 * 4, robot.sensor.range_curvature * 4**2):.0f =} cm. To draw a map we lay
-# all scans on one table, each moved and turned to the pose $x$ it was taken from. A point
-# $p_{\mathrm{r}}$ of the scan, given in the robot's frame, comes to lie at
+# The scans are good: at 4 m the standard deviation of this lidar is about
+# {= 100 * np.hypot(0.001 * 4, robot.sensor.range_curvature * 4**2):.0f =} cm. A **map** is a model of
+# the surroundings in the world frame; the simplest map is the set of all scan points. To draw this map, we
+# rotate and shift each scan according to the pose from which it was taken, and draw all scans in one frame. If
+# this pose
+# is $x$, $y$, $\theta$, a point $p_{\mathrm{r}}$, given in the robot frame, has the world coordinates
 #
 # $$ p = \begin{pmatrix} x \\ y \end{pmatrix} + \mathrm{Rot}(\theta)\, p_{\mathrm{r}}, \tag{01.3} $$
 #
-# which is the position part of (01.1). The package calls it `transform`. It trusts the pose that it
-# is given.
+# which is the position part of (01.1). The library computes $p$ with `transform(pose, points)`. A wrong pose
+# puts all points of its scan in the wrong place.
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# **Your turn.** Place the points of `scan`, the scan of reading 100, in the world frame, from the pose
+# computed by dead reckoning. The points in the robot frame are `scan.points()`.
+
+
+# %% slideshow={"slide_type": "fragment"} name="place-scan" tags=["folded"]
+def map_from(poses, readings):
+    """The points (n, 2) of all scans, each placed by its pose."""
+    each = zip(poses, readings, strict=True)
+    return np.vstack([transform(pose, reading.scan.points()) for pose, reading in each])
+
+
+# %% slideshow={"slide_type": "-"} tags=["your-turn"]
+placed = ...  # the points of scan in the world frame
+compare(placed, map_from(reckoned[[100]], [readings[100]]))
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# <details><summary>Answer</summary>
+#
+# ```python
+# placed = transform(reckoned[100], scan.points())
+# ```
+#
+# </details>
 
 # %% slideshow={"slide_type": "subslide"} name="ask-smear"
 ask(
     "01-smear",
-    "We lay the same scans out twice: from the true poses, and from those of the odometry. The robot "
-    "saw the corner at the lower left when it set out **and** when it came back. **What will the "
+    "We draw the same scans twice: from the true poses, and from the poses by dead reckoning. "
+    "The robot "
+    "passed the corner at the lower left when it set out **and** when it came back. **What will "
+    "the "
     "second map show?**",
     {
-        "one corridor with thicker walls": "this is what noise of the lidar would do; the poses are "
-        "metres off.",
-        "two corridors, one across the other": "each pass draws the corridor where the robot "
-        "believed it was.",
-        "points all over the place": "neighbouring poses agree well with each other, so each pass "
-        "by itself looks tidy.",
+        "one corridor with thicker walls": "lidar noise would have this effect, but the errors "
+        "of the poses are metres.",
+        "two corridors, one across the other": "each pass draws the corridor where dead reckoning "
+        "places the robot.",
+        "points all over the place": "neighbouring poses agree well with each other, so each "
+        "pass alone gives a sharp corridor.",
     },
     right="two corridors, one across the other",
 )
 
 
-# %% slideshow={"slide_type": "fragment"} name="two-maps" answers="01-smear"
-def map_from(poses, readings):
-    """The points (n, 2) of all scans, each placed by its pose."""
-    pairs = zip(poses, readings, strict=True)
-    return np.vstack([transform(pose, reading.scan.points()) for pose, reading in pairs])
-
-
 # %% slideshow={"slide_type": "fragment"} name="two-maps-picture" answers="01-smear" tags=["folded"]
 fig, _ = views.side_by_side(
     {
-        "from the true poses": [Points("map", map_from(truth, readings))],
-        "from the odometry": [Points("naive", map_from(naive, readings))],
-    }
+        "ground-truth poses": [Points("map", map_from(truth, readings))],
+        "poses by dead reckoning": [Points("naive", map_from(reckoned, readings))],
+    },
+    size=(9, 4.5),
 )
 views.show(
     fig,
-    alt="Left a sharp rectangular corridor; right the same scans, smeared, and at the lower left a "
+    alt="Left: a sharp rectangular corridor. Right: the same scans, smeared, and at the lower "
+    "left a "
     "second corridor across the first.",
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="01-smear"
-# Left, {= len(readings) =} scans fall on the same walls. Right, walls that were seen for a while
-# are smeared, and at the lower left two corridors cross where there is one: **the ends do not
-# meet**. The lidar is as good in this map as in the other. The poses are not, and a map is only as
-# good as the poses it is drawn from.
+# In the left map, the points of all {= len(readings) =} scans lie on the same walls. In the right map, the long
+# walls are smeared, and at the lower left two corridors cross where the building has only one: **the ends of
+# the lap do not meet**. Both maps use the same scans; only the poses differ. A **consistent map** (also *globally
+# consistent*) contains every wall once, even where the robot came back after a long drive. The left map is
+# consistent, the right one is not. (A consistent *filter* is a different concept, which lesson 03 defines.)
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
-# ## How good must the wheels be?
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=6
+# ## Systematic errors and calibration
 #
-# Let us take perfect odometry and spoil it on purpose, in one of two ways:
+# How exact would the wheels have to be? We take perfect odometry and add one of two errors on purpose:
 #
 # - *Ada's* robot reports every step **2 % too long**;
-# - the wheels of *Ben's* robot **differ by 0.1 %**, so that by (01.2) its heading drifts a little
-#   with every metre, always to the same side.
+# - the wheels of *Ben's* robot **differ by 0.1 %**, so by (01.2) its heading drifts a little with every metre,
+#   always in the same direction.
+#
+# An error that repeats in every step is a *systematic error* (also *bias*).
 
 # %% slideshow={"slide_type": "subslide"} name="ask-closes"
 ask(
     "01-closes",
     "**Whose lap does not close?**",
     {
-        "Ada's": "all four sides come out too long by the same share, so the lap grows and closes.",
-        "Ben's": "the sides keep their lengths, but each points a little further aside than the "
-        "one before.",
+        "Ada's": "all four sides become too long by the same factor, so the lap is larger, but it "
+        "closes.",
+        "Ben's": "the sides keep their lengths, but the direction error of each side is larger "
+        "than that of the side before.",
         "both": "a lap that is larger by 2 % on all sides still ends where it began.",
-        "neither": "0.1 % is little, but B is small and the drift adds up over 42 m.",
+        "neither": "0.1 % is small, but B is small, too, and the drift accumulates over 42 m.",
     },
     right="Ben's",
 )
 
 # %% slideshow={"slide_type": "subslide"} name="wheels-slider"
-perfect = between(truth[:-1], truth[1:])
-sparse = slice(None, None, 3)
+increments = between(truth[:-1], truth[1:])  # perfect odometry
+lengths = np.hypot(increments[:, 0], increments[:, 1])
 
 
-def spoiled(differ, long):
-    """The poses of perfect odometry, spoiled by wheels that differ and steps too long, in %."""
-    way = np.hypot(perfect[:, 0], perfect[:, 1])
-    drift = np.outer(way, [0, 0, differ / 100 / robot.robot.base])
-    return chain(perfect * [1 + long / 100, 1 + long / 100, 1] + drift)
+def with_bias(differ, longer):
+    """Perfect odometry with the bias of unequal wheels and of steps too long, both in %: poses."""
+    drift = np.outer(lengths, [0, 0, differ / 100 / robot.robot.base])
+    scale = 1 + longer / 100
+    return dead_reckoning(increments * [scale, scale, 1] + drift)
 
 
-def missed(differ, long=0.0):
-    """How far from its start a spoiled lap ends [m]."""
-    return np.hypot(*(spoiled(differ, long)[-1] - truth[-1])[:2])
+def end_error(differ, longer=0.0):
+    """How far from its start such a lap ends [m]."""
+    return np.hypot(*(with_bias(differ, longer)[-1] - truth[-1])[:2])
 
 
 # %% name="wheels-needed"
 tried = np.linspace(0, 0.1, 51)
-needed = np.interp(0.1, [missed(differ) for differ in tried], tried)  # to come home within 10 cm
+errors = [end_error(differ) for differ in tried]
+needed = np.interp(0.1, errors, tried)  # for an error of 10 cm
 
 
 # %% name="wheels-slider-picture"
-def spoiled_map(wheels_differ_by_percent, steps_too_long_by_percent):
-    """The map of a robot whose odometry is spoiled."""
-    poses = spoiled(wheels_differ_by_percent, steps_too_long_by_percent)
-    layers = [Points("map", map_from(poses[sparse], readings[sparse])), Poses("naive", poses)]
-    miss = missed(wheels_differ_by_percent, steps_too_long_by_percent)
-    return views.side_by_side({f"misses its start by {miss:.2f} m": layers}, size=(8, 5.6))[0]
+def map_with_bias(wheels_differ_by_percent, steps_too_long_by_percent):
+    """The map of a robot whose odometry has a bias."""
+    poses = with_bias(wheels_differ_by_percent, steps_too_long_by_percent)
+    layers = [Points("map", map_from(poses[::3], readings[::3])), Poses("naive", poses)]
+    error = end_error(wheels_differ_by_percent, steps_too_long_by_percent)
+    return views.side_by_side({f"misses its start by {error:.2f} m": layers}, size=(8, 5.6))[0]
 
 
 # %% slideshow={"slide_type": "subslide"} name="wheels-explore"
 views.explore(
-    spoiled_map,
-    alt=f"Ben's map: the lap misses its start by {missed(0.1):.1f} m, and the corridor's ends "
+    map_with_bias,
+    alt=f"Ben's map: the lap misses its start by {end_error(0.1):.1f} m, and the ends of the corridor "
     "do not meet.",
     wheels_differ_by_percent=(-0.3, 0.3, 0.1),
     steps_too_long_by_percent=(-5.0, 5.0, 0.0),
 )
 
 # %% [markdown]
-# At first you see Ben's map: the lap misses its start by {= missed(0.1):.1f =} m, and the corridor
-# is torn open. Move the first slider to 0 and the second to 2 and you see Ada's: it closes, though
-# it is too large. To bring Ben home within 10 cm his wheels would have to agree to
-# {= needed:.3f =} %. On a wheel of 10 cm this is {= 1000 * needed:.0f =} thousandths of a millimetre.
-
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
-# ## How errors grow
+# At first you see Ben's map: the lap misses its start by {= end_error(0.1):.1f =} m, and the ends of the
+# corridor do not meet. Move the first slider to 0 and the second to 2 to see Ada's map: her lap closes, but the
+# map is too large. Ben's robot misses its start by no more than 10 cm only if its wheels agree to
+# {= needed:.3f =} %. For a wheel of 10 cm this tolerance is {= 1000 * needed:.0f =} thousandths of a
+# millimetre.
 #
-# A constant error can be measured and corrected, which is called calibration. A random error
-# cannot. Let 2000 robots drive straight ahead in steps of half a metre. Each step goes wrong at
-# random, in one of two ways:
+# No workshop can make such wheels. But we can measure a systematic error and then remove it from the odometry.
+# This procedure is called *calibration*; lesson [14](14_devices_and_live_slam.ipynb) calibrates a
+# robot.
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# **Your turn.** The array `ada`, with columns for $x$, $y$ and $\theta$, contains the odometry
+# increments of Ada's robot. Remove the systematic error from these increments. (The turns in the third column
+# have no error.)
+
+# %% slideshow={"slide_type": "fragment"} tags=["your-turn"]
+ada = increments * [1.02, 1.02, 1.0]
+calibrated = ...  # from ada
+compare(calibrated, between(truth[:-1], truth[1:]))
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# <details><summary>Answer</summary>
+#
+# ```python
+# ada = increments * [1.02, 1.02, 1.0]
+# calibrated = ada / [1.02, 1.02, 1.0]
+# ```
+#
+# </details>
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=6
+# ## Random errors: how drift grows
+#
+# A *random error* differs from step to step, so calibration cannot remove it. Let 2000 robots
+# drive straight ahead in steps of half a metre. Each step has a random error. We consider two kinds of errors:
 #
 # - its **length** is wrong by 2 %, which is 1 cm;
-# - after it, the **heading** is wrong by 1°, and the robot keeps looking there.
+# - after it, the **heading** is wrong by 1°, and the robot keeps this heading.
 #
-# Such numbers are standard deviations, here and in all lessons.
+# The 2 % and the 1° are standard deviations. The errors are independent, and their means are zero.
 
 # %% slideshow={"slide_type": "subslide"} name="ask-growth"
 ask(
     "01-growth",
-    "The robots drive 5 m, and then 20 m: four times as far. Wrong lengths cause an error along "
-    "the line, wrong headings an error across it. **By which factors do these errors grow?**",
+    "The robots drive 5 m, and then 20 m: four times as far. Errors of length cause an error along "
+    "the line, errors of heading an error across it. **By what factors do the standard deviations "
+    "of these errors grow?**",
     {
-        "along 4, across 4": "errors would add up like this if all of them went to the same side.",
-        "along 2, across 2": "right for lengths; but an early error of heading has more steps to "
-        "lead astray.",
+        "along 4, across 4": "this would be right if all errors had the same sign.",
+        "along 2, across 2": "this is right for lengths; but an early error of heading rotates "
+        "all steps after it.",
         "along 2, across 8": "variances of independent errors add, and each error of heading "
-        "bends all that follows.",
-        "along 4, across 16": "random errors partly cancel: they do not all go to the same side.",
+        "rotates all steps that follow.",
+        "along 4, across 16": "random errors partly cancel: they do not all have the same sign.",
     },
     right="along 2, across 8",
 )
 
 
 # %% slideshow={"slide_type": "fragment"} name="spread" answers="01-growth"
-def straight_drives(way, length_error, heading_error, rng, robots=2000, step=0.5):
-    """Where robots end that mean to drive straight ahead: (robots, 2) along and across [m]."""
-    n = round(way / step)
+def straight_runs(distance, length_error, heading_error, rng, robots=2000, step=0.5):
+    """End positions of robots that aim straight ahead: (robots, 2), along and across [m]."""
+    n = round(distance / step)
     lengths = step * (1 + length_error * rng.standard_normal((robots, n)))
     errors = heading_error * rng.standard_normal((robots, n))
     headings = np.cumsum(errors, axis=1) - errors  # a step is driven before its error is made
@@ -314,49 +426,53 @@ def straight_drives(way, length_error, heading_error, rng, robots=2000, step=0.5
 
 # %% slideshow={"slide_type": "fragment"} name="spread-table" answers="01-growth" tags=["nbval-check-output"]
 rng = np.random.default_rng(2)
-for way in (5, 20, 80):
-    along, _ = straight_drives(way, 0.02, 0.0, rng).std(axis=0)
-    _, across = straight_drives(way, 0.0, np.radians(1), rng).std(axis=0)
-    print(f"{way:3d} m   length: {100 * along:4.0f} cm   heading: {100 * across:5.0f} cm")
+print("standard deviation caused by errors of")
+for distance in (5, 20, 80):
+    along, _ = straight_runs(distance, 0.02, 0.0, rng).std(axis=0)
+    _, across = straight_runs(distance, 0.0, np.radians(1), rng).std(axis=0)
+    print(f"{distance:3d} m   length: {100 * along:4.0f} cm   heading: {100 * across:5.0f} cm")
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
-# ## Why a heading is worse than a length
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=7
+# ## The variance of the position after n steps
 #
-# Errors of **length** partly cancel. If they are independent, their variances add, and after $n$
-# steps, each too long or too short by a random length of variance $\sigma_d^2$,
+# Why is an error of heading worse than an error of length? Errors of **length** partly cancel. They are
+# independent, so their variances add. If the length error of each step has the variance $\sigma_d^2$, the
+# variance after $n$ steps is
 #
 # $$ \operatorname{Var}(\text{along}) = n\, \sigma_d^2. \tag{01.4} $$
 #
-# Its root, the error, grows as $\sqrt{n}$: twice as large over four times the distance.
+# The standard deviation is the root of this variance. It grows as $\sqrt{n}$: over four times the distance, it
+# becomes twice as large.
 #
-# For the **heading**, look at a single error first. Think of the rest of the track as cut from
-# cardboard: the error turns it about the place where it is made.
+# For the **heading**, we consider a single error first. The error rotates the whole rest of the trajectory
+# about the point where the error occurs, as if the rest were a rigid body.
 
 # %% slideshow={"slide_type": "subslide"} name="ask-bends"
 ask(
     "01-bends",
-    "A robot drives three steps of length $d$. After each of them, the last one included, its "
-    "heading errs by an independent small angle of variance $\\sigma^2$. **What is the variance "
-    "of its final place, across the line that it meant to drive, in units of $\\sigma^2 d^2$?**",
+    "A robot drives three steps of length $d$. After each of them, including the last one, its "
+    "heading gets an independent small error of variance $\\sigma^2$. **What is the variance "
+    "of its final position, across the intended line, in units of $\\sigma^2 d^2$?**",
     {
-        "3": "one each would be right if every error moved the end by the same length.",
-        "5": "the first error bends two steps, the second one, the last none: 4 + 1 + 0.",
-        "9": "this is (2 + 1 + 0)²: amounts add up only if all errors go to the same side.",
-        "14": "9 + 4 + 1 lets the last error bend a step, but that error is made when all steps "
-        "have been driven.",
+        "3": "this would be right if every error moved the end by the same length.",
+        "5": "the first error rotates two steps, the second error one, and the last none: 4 + 1 "
+        "+ 0.",
+        "9": "this is (2 + 1 + 0)²: the errors themselves add up only if all have the same sign.",
+        "14": "9 + 4 + 1 would mean that the last error rotates a step, but that error occurs "
+        "after the last step.",
     },
     right="5",
 )
 
 # %% slideshow={"slide_type": "fragment"} name="bends" answers="01-bends" tags=["nbval-check-output"]
-across = straight_drives(3 * 0.5, 0.0, 0.01, rng, robots=200_000)[:, 1]
+across = straight_runs(3 * 0.5, 0.0, 0.01, rng, robots=200_000)[:, 1]
 print(f"200 000 robots: {across.var() / (0.01 * 0.5) ** 2:.1f} σ² d²")
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### The sum of all errors
 #
-# Of $n$ steps, $n - k$ are still to come when the $k$-th error $e_k$ is made. It turns them all, and
-# while all angles are small it moves the end sideways by their length times the angle:
+# When the $k$-th error $e_k$ occurs, $n - k$ of the $n$ steps remain. The error rotates all of these steps. If
+# all angles are small, it moves the end sideways by the angle times the total length of the remaining steps:
 #
 # $$ \text{across} = d \sum_{k=1}^{n} (n - k)\, e_k. \tag{01.5} $$
 #
@@ -366,126 +482,159 @@ print(f"200 000 robots: {across.var() / (0.01 * 0.5) ** 2:.1f} σ² d²")
 # $$ \operatorname{Var}(\text{across}) = \sigma^2 d^2 \sum_{k=1}^{n} (n-k)^2
 # \approx \tfrac{1}{3}\, \sigma^2 d^2\, n^3. \tag{01.6} $$
 #
-# The error grows as $n\sqrt{n}$: eightfold over four times the distance.
+# The standard deviation grows as $n\sqrt{n}$: over four times the distance, it becomes eight times as
+# large. So a heading error is worse than an error of length. (For 5 steps the
+# sum is 30 and $n^3/3$ is 42, so the root of the approximation is still 18 % too large.)
 
 # %% slideshow={"slide_type": "subslide"} name="growth"
-ways = np.array([2.5, 5, 10, 20, 40, 80])
-n = ways / 0.5
-length = [straight_drives(way, 0.02, 0.0, rng)[:, 0].std() for way in ways]
-heading = [straight_drives(way, 0.0, np.radians(1), rng)[:, 1].std() for way in ways]
-slow, fast = (np.polyfit(np.log(ways), np.log(errors), 1)[0] for errors in (length, heading))
+distances = np.array([2.5, 5, 10, 20, 40, 80])
+n = distances / 0.5
+theory = {"(01.4)": 0.02 * 0.5 * n**0.5, "(01.6)": np.radians(1) * 0.5 * (n**3 / 3) ** 0.5}
+along = [straight_runs(each, 0.02, 0.0, rng)[:, 0].std() for each in distances]
+across = [straight_runs(each, 0.0, np.radians(1), rng)[:, 1].std() for each in distances]
+slow, fast = (np.polyfit(np.log(distances), np.log(each), 1)[0] for each in (along, across))
 
 # %% slideshow={"slide_type": "-"} name="growth-picture" tags=["folded"]
 fig, _ = views.growth(
-    ways,
-    {"length error 2 %": length, "heading error 1°": heading},
-    {"(01.4)": 0.02 * 0.5 * n**0.5, "(01.6)": np.radians(1) * 0.5 * (n**3 / 3) ** 0.5},
-    "way driven [m]",
-    "error [m]",
-    "Error of 2000 robots",
+    distances,
+    {"length errors of 2 %": along, "heading errors of 1°": across},
+    theory,
+    "distance driven [m]",
+    "standard deviation of the position [m]",
+    "End positions of 2000 robots",
     size=(8, 5),
 )
-views.show(fig, f"Length errors rise with slope {slow:.1f} on the axes, heading's with {fast:.1f}.")
+views.show(
+    fig,
+    f"The effect of length errors rises with slope {slow:.1f}, that of heading errors with {fast:.1f}.",
+)
 
 # %% [markdown]
-# On doubly logarithmic axes a power is a straight line, and its exponent is the slope:
-# {= slow:.1f =} for lengths, {= fast:.1f =} for headings. After 5 m both errors seem bearable.
-# After 80 m the error that headings cause is {= heading[-1] / length[-1]:.0f =} times the other.
-# **Errors that only ever add up run away.**
+# On doubly logarithmic axes a power law is a straight line, and its exponent is the slope of this line:
+# {= slow:.1f =} for length errors, {= fast:.1f =} for heading errors. After 5 m both standard deviations are
+# still small. After
+# 80 m the standard deviation due to heading errors is {= across[-1] / along[-1]:.0f =} times that due to
+# length errors. **Errors that accumulate grow without bound.**
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# **Your turn.** Use the powers of (01.4) and (01.6). If the robots drive 16 times as far, by what
+# factors do the standard deviations along and across the line grow?
+
+# %% slideshow={"slide_type": "fragment"} tags=["your-turn"]
+factors = ...  # along, across
+compare(factors, [each[5] / each[1] for each in theory.values()])
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# <details><summary>Answer</summary>
+#
+# ```python
+# factors = 16**0.5, 16**1.5
+# ```
+#
+# The factors are 4 and 64. The figure above shows them between 5 m and 80 m.
+#
+# </details>
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=3
-# ## See the cloud
+# ## The distribution of the end position
 #
-# Here is where 800 such robots end. First you see errors of heading alone. Make the drive longer:
-# the cloud bends round the start, because every robot drives the same distance, wherever it heads.
-# Then set the heading error to 0 and raise the length error.
+# The figure shows the end positions of 800 such robots. At first the robots have heading errors only. Increase
+# the distance: the end positions form an arc, because a robot that has veered to one side has advanced less
+# along the line. Then set the heading error to 0 and increase the length error.
 
 
 # %% name="cloud" tags=["folded"]
-def cloud(way_in_metres, heading_error_in_degrees, length_error_in_percent):
-    """The ends of 800 drives that were to lead straight ahead."""
+def end_positions(distance_in_metres, heading_error_in_degrees, length_error_in_percent):
+    """The end positions of 800 runs that were planned straight ahead."""
     errors = length_error_in_percent / 100, np.radians(heading_error_in_degrees)
-    ends = straight_drives(way_in_metres, *errors, np.random.default_rng(1), robots=800)
+    ends = straight_runs(distance_in_metres, *errors, np.random.default_rng(1), robots=800)
     along, across = ends.std(axis=0)
-    title = f"σ along the way: {along:.2f} m, across it: {across:.2f} m"
+    title = f"standard deviation along the line {along:.2f} m, across it {across:.2f} m"
     fig, ax = views.axes(title, size=(8, 5.2))
-    views.draw(ax, Poses("truth", [[0, 0, 0], [way_in_metres, 0, 0]]), label="meant")
-    views.draw(ax, Points("naive", ends), label="ends", markersize=4)
+    line = [[0, 0, 0], [distance_in_metres, 0, 0]]
+    views.draw(ax, Poses("truth", line), label="planned trajectory")
+    views.draw(ax, Points("naive", ends), label="end positions", markersize=4)
     views.legend(ax, loc="upper left")
     return fig
 
 
 # %% name="cloud-picture"
 views.explore(
-    cloud,
-    alt="Ends of robots that meant to drive straight: an arc across the way, bent towards the "
-    "start.",
-    way_in_metres=(5, 80, 30),
+    end_positions,
+    alt="End positions of robots that aimed straight ahead: an arc across the line, bent towards "
+    "the start.",
+    distance_in_metres=(5, 80, 30),
     heading_error_in_degrees=(0.0, 3.0, 1.5),
     length_error_in_percent=(0.0, 20.0, 0.0),
 )
 
 # %% [markdown]
-# Over 30 m, errors of 1.5° a step make the cloud
-# {= straight_drives(30, 0, np.radians(1.5), rng)[:, 1].std():.1f =} m wide (one standard deviation).
-# Lengths that are wrong by a whole 20 % make it only
-# {= straight_drives(30, 0.2, 0, rng)[:, 0].std():.1f =} m long. And no ellipse fits an arc well:
-# lessons 04 and 11 come back to this shape.
+# Over 30 m, heading errors with a σ of 1.5° per step cause a standard deviation of
+# {= straight_runs(30, 0, np.radians(1.5), rng)[:, 1].std():.1f =} m across the line. Length errors with a σ of
+# as much as 20 % of a step cause only {= straight_runs(30, 0.2, 0, rng)[:, 0].std():.1f =} m along it. An
+# ellipse does not describe an arc well; lessons 04 and 11 return to this shape.
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
-# ## A first look at the cure
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=6
+# ## Scan matching corrects the odometry
 #
-# The odometry says how the robot moved. The scans say it too: between two readings the walls stood
-# still, so whatever motion lays the new scan over the old one **is** the motion of the robot.
+# The scans also contain information about the motion, because the walls do not move between two readings. The
+# robot can therefore compute the motion that aligns the new scan with the old one. This method is called *scan
+# matching*. It works where the walls determine the motion. A single plain wall does not determine it: a scan
+# that is shifted along the wall fits equally well.
 #
-# An *estimator* is a program that turns readings into poses and a map. The one called `icp` does
-# just this: it starts from the odometry's guess and corrects it until the walls match. Lesson
-# [13](13_scan_matching.ipynb) takes it to pieces. It reads the same readings as before.
+# An *estimator* is a program that computes poses and a map from readings. The estimator `icp` matches scans: it
+# starts from the odometry and corrects the motion until the walls coincide. Lesson
+# [13](13_scan_matching.ipynb) explains how. We give it the same readings as before.
 
 # %% slideshow={"slide_type": "subslide"} name="ask-cure"
 ask(
     "01-cure",
-    "**Do the ends of the corridor meet now?**",
+    "**By how much does the trajectory of `icp` miss the start of the lap?**",
     {
-        "exactly": "each match errs by a little, and errors that only ever add up run away.",
-        "to about ten centimetres": "the walls tell the heading far better than the wheels do.",
-        "no better than before: it starts from the odometry": "it starts there, but the walls "
-        "correct each step before the next begins.",
+        "not at all": "each match has a small error, and these errors accumulate.",
+        "by about ten centimetres": "the walls determine the heading far better than the wheels "
+        "do.",
+        "by as much as dead reckoning, since it starts from the odometry": "it does start "
+        "from the odometry, but the walls correct each step before the next one begins.",
     },
-    right="to about ten centimetres",
+    right="by about ten centimetres",
 )
 
 # %% slideshow={"slide_type": "fragment"} name="cure" answers="01-cure"
 matched = run(robot, estimators.make("icp", robot))
-corrected = matched.trajectory.poses
-for name, poses in {"odometry": naive, "icp": corrected}.items():
+estimated = matched.trajectory.poses
+for name, poses in {"dead reckoning": reckoned, "icp": estimated}.items():
     ahead, left, turn = between(truth[-1], poses[-1])
-    print(f"{name:8}  misses by {100 * np.hypot(ahead, left):5.1f} cm and {np.degrees(turn):5.1f}°")
+    print(
+        f"{name:14}  misses by {100 * np.hypot(ahead, left):5.1f} cm and {np.degrees(turn):5.1f}°"
+    )
 
 # %% slideshow={"slide_type": "fragment"} name="cure-picture" answers="01-cure" tags=["folded"]
-miss = 100 * np.hypot(*between(truth[-1], corrected[-1])[:2])
+miss = 100 * np.hypot(*between(truth[-1], estimated[-1])[:2])
 fig, _ = views.side_by_side(
     {
-        "odometry alone": [Points("naive", map_from(naive, readings))],
-        "odometry and scans": [Points("corrected", map_from(corrected, readings))],
-    }
+        "odometry alone": [Points("naive", map_from(reckoned, readings))],
+        "odometry and scan matching": [Points("corrected", map_from(estimated, readings))],
+    },
+    size=(9, 4.5),
 )
 views.show(
-    fig, alt=f"Left the smeared corridor; right the matched one, sharp, closed to {miss:.0f} cm."
+    fig,
+    alt=f"Left: the smeared corridor. Right: the sharp corridor by icp, closed to {miss:.0f} cm.",
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="01-cure"
-# The robot, its wheels and its scans are the same. On the right the walls are sharp, and the lap
-# misses its start by {= miss:.0f =} cm where odometry misses it by
-# {= 100 * np.hypot(*gap[:2]):.0f =}. Was this luck? We drive three more laps, and look at single
-# steps as well.
+# Both maps use the same odometry and the same scans. In the right map the walls are sharp, and the trajectory
+# misses its start by {= miss:.0f =} cm; the trajectory by dead reckoning misses it by
+# {= 100 * np.hypot(*gap[:2]):.0f =} cm. One lap may be an exception. So we drive three more laps, and examine
+# single steps as well.
 
 
 # %% slideshow={"slide_type": "subslide"} name="more-laps" tags=["code"]
 def step_errors(poses, truth):
-    """How far the steps of a track are off, in the median: length [mm] and turn [°]."""
+    """Median errors of the steps of a trajectory: ahead [mm], to the side [mm], heading [°]."""
     off = between(between(truth[:-1], truth[1:]), between(poses[:-1], poses[1:]))
-    return 1e3 * np.median(np.hypot(*off[:, :2].T)), np.degrees(np.median(np.abs(off[:, 2])))
+    return np.median(np.abs(off), axis=0) * [1e3, 1e3, np.degrees(1)]
 
 
 laps = [(robot.truth.poses, matched)]
@@ -495,104 +644,113 @@ for seed in (0, 1, 2):
 
 # %% slideshow={"slide_type": "-"} name="more-laps-table"
 ends, steps = [], []  # of each lap: by odometry, by icp
-for true, found in laps:
-    tracks = found.naive.poses, found.trajectory.poses
-    ends.append([np.hypot(*between(true[-1], poses[-1])[:2]) for poses in tracks])
-    steps.append([step_errors(poses, true) for poses in tracks])
+for true, result in laps:
+    trajectories = result.naive.poses, result.trajectory.poses
+    ends.append([np.hypot(*between(true[-1], poses[-1])[:2]) for poses in trajectories])
+    steps.append([step_errors(poses, true) for poses in trajectories])
     print("misses by {:.2f} m with odometry, by {:.2f} m with icp".format(*ends[-1]))
 per_step = np.mean(steps, axis=0)
-for name, (far, turned) in zip(("odometry", "icp"), per_step, strict=True):
-    print(f"{name:8}  a step is off by {far:.1f} mm and {turned:.3f}°")
+for name, (ahead, side, heading) in zip(("odometry", "icp"), per_step, strict=True):
+    print(f"{name:8}  a step: {ahead:.1f} mm ahead, {side:.1f} mm to the side, {heading:.3f}°")
 
 # %% [markdown]
-# In {= sum(by_icp < by_wheels for by_wheels, by_icp in ends) =} of {= len(ends) =} laps the matcher
-# ends nearer to the start than the odometry of the same drive. Now look at the steps: it measures
-# their *length* hardly better than the wheels do, but their *turn*
-# {= per_step[0, 1] / per_step[1, 1]:.0f =} times better. The cure works where
-# the harm was done. It is not a full cure: its errors add up too, but they are smaller.
+# In {= sum(by_icp < by_odometry for by_odometry, by_icp in ends) =} of {= len(ends) =} laps `icp` ends
+# nearer to the start than dead reckoning does. The last two lines print the median errors of the steps,
+# averaged over the laps. *Ahead*, `icp` is no better than the odometry: the lidar measures mostly plain walls,
+# and a shift along a plain wall does not change the scan. To the side, the error of `icp` is smaller by a
+# factor of {= per_step[0, 1] / per_step[1, 1]:.0f =}, and in the *heading* by a factor of
+# {= per_step[0, 2] / per_step[1, 2]:.0f =}. The heading errors had caused most of the drift. But the errors of
+# `icp` accumulate, too, so its trajectory also drifts, only more slowly.
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=4
-# ## The same on a real robot
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
+# ## A real robot: the Intel data set
 #
-# A simulator shows only what its author believes. So here is a log that made history: a robot drove
+# A simulator contains only the effects that its author knows. So we now use a log of a real robot, which many
+# papers on SLAM have used. A robot drove
 # for {= intel_maps.stored().minutes:.0f =} minutes through the Intel Research Lab in Seattle, along
-# the same corridors several times. Dirk Hähnel recorded {= intel_maps.stored().readings =} scans of
-# 180 beams, and what the wheels said. The log is not ours to give away, but you get the points of
-# two maps that we made from it: by odometry, and by `icp` with the settings from above.
+# the same corridors several times. Dirk Hähnel recorded odometry and scans of 180 beams. We use
+# {= intel_maps.stored().readings =} scans of his log, about one every
+# {= intel_maps.stored().path_length / intel_maps.stored().readings:.1f =} m. We may not redistribute the
+# log, but you get the points of two maps that we computed from it: one by dead reckoning, and one by `icp` with
+# the same settings as above.
 
 # %% slideshow={"slide_type": "subslide"} name="ask-again"
 ask(
     "01-again",
-    "`icp` compares each scan only with what it has just seen. **The robot comes back to a corridor "
-    "after ten minutes. How will this corridor look in its map?**",
+    "`icp` compares each scan only with the most recent ones. **The robot comes back to a "
+    "corridor after ten minutes. How will this corridor appear in the map?**",
     {
-        "once, and sharper": "more scans would sharpen it, if the robot knew that it is the same "
+        "once, and sharper": "more scans would make it sharper if the robot recognised the "
         "corridor.",
-        "twice, side by side or crossing": "the small errors of ten minutes lie between the two "
-        "visits, and nothing takes them away.",
-        "not at all": "all scans are drawn; none is thrown away because it contradicts another.",
+        "twice, side by side or crossing": "the drift of ten minutes separates the two visits, "
+        "and nothing removes it.",
+        "not at all": "all scans are drawn; none is rejected because it contradicts another.",
     },
     right="twice, side by side or crossing",
 )
 
 # %% slideshow={"slide_type": "fragment"} name="intel-maps" answers="01-again" tags=["nbval-check-output"]
 intel = intel_maps.stored()
-long, across = (np.ptp(intel.points[name], axis=0).max() for name in ("odometry", "icp"))
-print(f"a way of {intel.way:.0f} m, in {intel.readings} readings")
-print(f"maps {long:.0f} m long (odometry) and {across:.0f} m (icp)")
+width = {name: np.ptp(intel.points[name], axis=0).max() for name in ("odometry", "icp")}
+print(f"a path of {intel.path_length:.0f} m by odometry, {intel.readings} scans")
+print(f"larger side of the map: {width['odometry']:.0f} m (odometry), {width['icp']:.0f} m (icp)")
 
 # %% slideshow={"slide_type": "subslide"} name="intel-picture" answers="01-again" tags=["folded"]
 fig, _ = views.side_by_side(
     {
-        "Intel Research Lab: odometry alone": [Points("naive", intel.points["odometry"])],
-        "Intel Research Lab: odometry and scans": [Points("corrected", intel.points["icp"])],
+        "odometry alone": [Points("naive", intel.points["odometry"])],
+        "odometry and scan matching": [Points("corrected", intel.points["icp"])],
     },
-    size=(11, 5.5),
+    size=(9, 4.6),
     shared=False,
 )
 views.show(
     fig,
-    f"Left a tangle {long:.0f} m long; right rooms round a ring, {across:.0f} m across, many of "
-    "whose walls stand twice.",
+    f"Left: a tangle, {width['odometry']:.0f} m long. Right: rooms round a ring, {width['icp']:.0f} m "
+    "across; many walls appear twice.",
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="01-again"
-# Mind the scales: the left map is {= long:.0f =} m long, the right one {= across:.0f =} m. With the
-# wheels alone, the laps are turned against each other and overlap until nothing can be made out. On
-# the right stands a building. Compared with trusted measurements of where one place lies as seen
-# from another (Kümmerle and others, 2009), odometry is off by {= intel.off["odometry"]:.1f =} m on
-# average and `icp` by {= intel.off["icp"]:.2f =} m.
+# The two maps have different scales: the left map is {= width["odometry"]:.0f =} m long, the right one
+# {= width["icp"]:.0f =} m. With odometry alone, the laps are rotated relative to each other, and no
+# room can be recognised. The right map shows a building. This log has no ground truth, but Kümmerle and others
+# (2009) computed relative poses by matching scans of this log, and checked the results by hand. We compare with
+# {= intel.relations =} of these relative poses. On average, the translations by dead reckoning are wrong by
+# {= intel.off["odometry"]:.1f =} m, and the translations by `icp` by {= intel.off["icp"]:.2f =} m.
 #
-# But look closely: many walls stand twice. The matcher **does not know that it has been here
-# before**. Recognising a place, and mending the past, is called *closing the loop*.
+# But many walls of the right map appear twice, so this map is not consistent. The estimator **does not
+# recognise a place that the robot has visited before**. Recognising such a place, and correcting the trajectory
+# with this knowledge, is called **loop closure** (also *closing the loop*). Lesson 15 adds loop closure.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=2
-# ## What SLAM is
+# ## Simultaneous localisation and mapping
 #
-# - To place a scan on the map, the robot needs its **pose**.
-# - To correct its pose, it needs a **map**.
-# - It has neither. It must estimate both from the same readings, at the same time: *simultaneous
-#   localisation and mapping*.
+# - To place a scan on the map, the robot needs its **pose**. Estimating the pose in a known map is
+#   called *localisation*.
+# - To correct its pose, it needs a **map**. Estimating a map from known poses is called *mapping*.
+# - At the start, the robot has neither. From the same readings it must estimate both the trajectory and the map:
+#   *simultaneous localisation and mapping* (SLAM). The result should be a consistent map.
 #
-# It must also know **how sure it is**. A wall that was seen from a doubtful pose is a doubtful wall.
-# And when the robot recognises one wall, this corrects its pose, the poses on the way there, and all
-# the walls that it drew from them. The coming lessons put this into equations.
+# The robot must also know **how uncertain** its estimates are. The position of a wall that was measured from an
+# uncertain pose is uncertain, too. A loop closure can therefore correct the last pose, the earlier poses of the
+# loop, and all walls that were mapped from these poses. The next lessons derive the equations for such
+# corrections.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* ask which parts of the maps on the right the class would trust, and why. Keep
-# the double walls of the real map on the projector: lesson 15 mends them.
+# *For the lecturer:* ask which parts of the two maps by scan matching the class would trust, and why.
+# Give the class time to look at the double walls of the real map: lesson 15 corrects them by loop closure.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=1
-# ## Who had the idea
+# ## Literature
 #
 # - Randall Smith, Matthew Self and Peter Cheeseman, *Estimating uncertain spatial relationships in
-#   robotics*, 1990: robot and landmarks in one estimate, with what their errors have in common.
+#   robotics*, 1990: robot and landmarks in one estimate, with the correlations of their errors.
 # - John Leonard and Hugh Durrant-Whyte, *Simultaneous map building and localization for an
 #   autonomous mobile robot*, IROS 1991.
 # - Johann Borenstein and Liqiang Feng, *Measurement and correction of systematic odometry errors in
-#   mobile robots*, IEEE Transactions on Robotics and Automation, 1996: how to calibrate wheels.
+#   mobile robots*, IEEE Transactions on Robotics and Automation, 1996: how to calibrate odometry.
 # - Rainer Kümmerle and others, *On measuring the accuracy of SLAM algorithms*, Autonomous Robots,
-#   2009: the trusted measurements of the Intel log.
+#   2009: the measured relative poses of the Intel log.
 #
 # **Read next:** Hugh Durrant-Whyte and Tim Bailey, *Simultaneous localization and mapping: part I*,
 # IEEE Robotics & Automation Magazine, 2006.
@@ -600,19 +758,20 @@ views.show(
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=1
 # ## What comes next
 #
-# Now draw such maps with functions of your own:
-# [exercise 01](../exercises/ex01_why_slam.ipynb), 60 min. It asks how the error grows on a drive of
-# any shape, and what a robot that comes home now and then can mend.
+# In the exercise you draw such maps with your own functions:
+# [exercise 01](../exercises/ex01_why_slam.ipynb), 60 min. The exercise asks how drift grows on a trajectory of
+# any shape, and how a robot can correct its trajectory if it sometimes returns to a known place.
 #
-# After that, [02 · Sensors and worlds](02_sensors_and_worlds.ipynb) looks at the scans: what a
-# sensor sees of a room, and how it errs.
+# Then [02 · Sensors, odometry and simulated worlds](02_sensors_and_worlds.ipynb) examines the scans: what a
+# sensor measures in a room, and what errors these measurements have.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
-# ## Deeper: your own copy of the real log
+# ## Deeper: the Intel log on your own computer
 #
-# The log is published; `sources.recording("intel")` says where to look for it and where to put it.
-# Then this line, in a terminal, makes both maps from its readings:
+# These commands, in a terminal, fetch the log (3.7 MB) from where it is published, and compute both
+# maps from its readings:
 #
+#     slamlab data get intel
 #     slamlab run intel --estimator icp --out intel-map
 #
-# With `--estimator graph` in its place you meet the estimator of lesson 15, which recognises places.
+# With `--estimator graph` the second command runs the estimator of lesson 15, which closes loops.

@@ -1,25 +1,26 @@
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=1
-# # 07 · Correlations
+# # 07 · Correlations, consistency and cost of EKF-SLAM
 #
-# **You will be able to** say block by block where the correlations of a map come from, what breaks
-# when they are dropped, what they cost, and how some of that cost can be avoided without losing
-# anything.
+# **You will be able to** derive block by block where the correlations of a map come from, show what
+# happens when they are dropped, state their cost, reduce this cost without losing accuracy, and derive
+# why EKF-SLAM becomes inconsistent.
 #
-# **90 minutes**, in two parts of 45: where correlations come from, and what they are good for.
+# **90 minutes**, in two parts of 40 and 50: where correlations come from, and what depends on them.
 # **Before:** lesson [06](06_ekf_slam.ipynb), which builds the filter, and NEES from lesson
 # [03](03_kalman_filter.ipynb).
 #
-# *Key:* a landmark that is placed by a robot inherits the robot's error. The covariance has to
-# remember that.
+# *Key:* a landmark that a robot adds to its map contains the robot's error. The covariance has to keep
+# the resulting correlation.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* The first part is a lecture at the blackboard, with a machine that checks each
-# line. The second is a series of experiments. Both take 45 minutes with their questions.
+# *For the lecturer:* The first part is a lecture at the blackboard, and sympy checks each line. This
+# part takes 40 minutes with its questions. The second part, of 50 minutes, is a series of experiments.
 #
-# *In 45 minutes:* the two sightings with their derivations, "A whole loop" without what the map errs
-# by, "Part two: drop them", and the last slide. What stands behind the last slide is for reading at home.
+# *In 45 minutes:* the two measurements with their derivations, "A whole loop" without the displacement of
+# the map, "Part two: dropped correlations", Victoria Park, and the last slide. The sections after the
+# last slide are for reading at home.
 #
-# Good for a poll: the first question, the one on the far landmark, and the one on dropping.
+# Questions for a poll: the first one, the one on the far landmark, and the one on dropped correlations.
 
 # %% slideshow={"slide_type": "skip"} tags=["folded"]
 from copy import deepcopy
@@ -32,28 +33,30 @@ import numpy as np
 import sympy as sp
 from IPython.display import Markdown
 
-from slamlab import models, views
-from slamlab.checks import ask
-from slamlab.derivation import blockwise, derive, symmetric
-from slamlab.estimators.mak_slam import MakSlam, Q_arc
-from slamlab.evaluation import band, correlation
-from slamlab.filters import MAK, CompressedMAK, JoinedMap
+from classroom.checks import ask, compare
+from classroom.derivation import blockwise, derive, symmetric
+from course.studies import dropped_correlations, landmark_correlations, observability, victoria_park
+from course.studies import localisation_and_mapping as ekf_runs
+from course.studies.consistency import errors_of
+from course.studies.study_command import stored
+from slamlab import models, sources, views
+from slamlab.estimators.ekf_slam import EkfSlam, Q_arc
+from slamlab.evaluation import band, correlation, nees
+from slamlab.filters import MAK, CompressedEKF, JoinedMap
 from slamlab.geometry import compose
-from slamlab.layers import Points, Poses
+from slamlab.layers import Ellipses, Points, Poses
+from slamlab.sources import gtsam_text
 from slamlab.sources.landmark_runs import LandmarkRun, Loop
-from slamlab.studies import forgetting, observability, shared_errors, two_halves
-from slamlab.studies.consistency import errors_of
-from slamlab.studies.study_command import stored
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
-# ## Two landmarks, two sightings
+# ## Two landmarks, two measurements
 #
-# A robot and two landmarks, 1 and 2: what happens to their covariance when the robot looks first at
-# one and then at the other? This is the smallest example in which everything happens that happens
-# in a large map. It comes from the MAK thesis.
+# A state consists of a robot and two landmarks, 1 and 2. How does its covariance change when the robot
+# measures first landmark 1 and then landmark 2? This example from the MAK thesis is the smallest one
+# that shows how all correlations of a large map arise.
 #
-# At the beginning the robot and both landmarks are each known from a source of their own. Their three
-# errors have nothing in common, so the covariance is block-diagonal:
+# At the beginning the estimates of the robot and of both landmarks come from independent sources. Their
+# three errors are uncorrelated, so the covariance is block-diagonal:
 #
 # $$P = \begin{bmatrix} P_{\mathrm{rr}} & 0 & 0 \\ 0 & P_{11} & 0 \\ 0 & 0 & P_{22} \end{bmatrix}
 # \tag{07.1}$$
@@ -61,26 +64,26 @@ from slamlab.studies.study_command import stored
 # %% slideshow={"slide_type": "subslide"}
 ask(
     "07-blocks",
-    "The robot sees landmark 1, and then landmark 2; never both at once. Of the three cross blocks "
-    "$P_{\\mathrm r1}$, $P_{\\mathrm r2}$, $P_{12}$, **which are still zero after the second sighting?**",
+    "The robot measures landmark 1 and then landmark 2, but never both at once. Of the three cross "
+    "blocks $P_{\\mathrm r1}$, $P_{\\mathrm r2}$, $P_{12}$, **which are still zero after the second "
+    "measurement?**",
     {
-        "all three": "each sighting has noise of its own, but it corrects robot and landmark by one "
-        "and the same innovation.",
-        "only the one between the two landmarks": "nobody measured from one to the other; still, "
-        "both now depend on the same robot.",
-        "none": "the robot carries what it learned at landmark 1 over to landmark 2.",
+        "all three": "each measurement has its own noise, but it corrects robot and landmark by "
+        "the same innovation.",
+        "only the one between the two landmarks": "no measurement connects the two landmarks "
+        "directly, but both errors now depend on the same robot.",
+        "none": "the robot's error is correlated with landmark 1, so the second innovation is "
+        "correlated with landmark 1, too.",
     },
     right="none",
 )
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# We shall derive it, block by block, with a machine that checks each line.
-
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# ### What a sighting looks at
+# ### The Jacobian of a measurement
 #
-# By lesson 05, the innovation depends on the error of the robot, by $H_{\mathrm r}$, and on that of
-# the landmark in sight, by $H_{\mathrm p}$. About any other landmark it says nothing:
+# By lesson 05, the innovation depends to first order on two errors: on that of the robot, with the
+# Jacobian $H_{\mathrm r}$, and on that of the measured landmark, with the Jacobian $H_{\mathrm p}$. The
+# innovation does not depend on any other landmark:
 #
 # $$H_1 = \begin{bmatrix} H_{\mathrm r} & H_{\mathrm p} & 0 \end{bmatrix}, \qquad
 # H_2 = \begin{bmatrix} H_{\mathrm r} & 0 & H_{\mathrm p} \end{bmatrix} \tag{07.2}$$
@@ -93,48 +96,45 @@ H_r, H_p, S = of("H_r", 2, 3), of("H_p", 2, 2), symmetric("S", 2)
 H_1 = sp.BlockMatrix([[H_r, H_p, Z(2, 2)]])
 H_2 = sp.BlockMatrix([[H_r, Z(2, 2), H_p]])
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=9
-# ## The first sighting, line by line
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=8
+# ## The first measurement, step by step
 #
-# Who learns from a sighting? The gain is $K = P H^{\mathsf T} S^{-1}$, so we look at $P H^{\mathsf T}$,
-# the covariance of the state's error with the innovation:
+# Which estimates does a measurement correct? The gain is $K = P H^{\mathsf T} S^{-1}$, so we look at
+# $P H^{\mathsf T}$, the covariance of the state's error with the innovation:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 sp.block_collapse(P * H_1.T)
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The third block is zero: landmark 2 shares nothing with the robot and nothing with landmark 1, so
-# it shares nothing with the innovation either. Robot and landmark 1 move, landmark 2 stays.
+# The third block is zero: the error of landmark 2 is uncorrelated with the errors of the robot and of
+# landmark 1, so it is uncorrelated with the innovation, too. The robot and landmark 1 are corrected;
+# landmark 2 is not.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# ### Any covariance, any sighting
+# ### Any covariance, any measurement
 #
-# Lesson 03 left us with $P - K S K^{\mathsf T}$. We put the gain in:
+# Lesson 03 derived $P - K S K^{\mathsf T}$. We insert the gain:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 any_P, any_H, K = symmetric("P", 7), of("H", 2, 7), of("K", 7, 2)
 update = (
-    derive("P_new", any_P - K * S * K.T, "an update takes K S Kᵀ away")
-    .step("put the gain in", given={K: any_P * any_H.T * S.I})
-    .step("multiply: S⁻¹ S falls out, and S and P are symmetric", lambda line: line.doit())
+    derive("P_new", any_P - K * S * K.T, "an update subtracts K S Kᵀ")
+    .step("insert the gain", given={K: any_P * any_H.T * S.I})
+    .step("multiply: S⁻¹ S cancels, and S and P are symmetric", lambda line: line.doit())
 )
 update
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# So everything depends on the column $P H^{\mathsf T}$ that we have just looked at:
+# So everything depends on the column $P H^{\mathsf T}$ from above:
 #
 # $$P \leftarrow P - P H^{\mathsf T} S^{-1} H P \tag{07.3}$$
-
-
-# %% [markdown] slideshow={"slide_type": "subslide"}
-# ### Block by block
 #
-# Now we write $P$ and $H$ in blocks, and let the machine multiply:
+# Now we write $P$ and $H$ in blocks, and sympy multiplies them:
 
 
 # %% slideshow={"slide_type": "fragment"}
-def sighting(P, H):
-    """What a sighting makes of a covariance in blocks, as a derivation."""
+def measurement(P, H):
+    """Update of a covariance in blocks by a measurement, as a derivation."""
     PHt, given = blockwise(P * H.T), {any_P: P, any_H: H}
     return (
         derive("P_new", update.result, "any update, as derived")
@@ -144,38 +144,59 @@ def sighting(P, H):
 
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="07-blocks"
-seen = H_1  # what is seen: change this line
-sighting(P, seen)
+measured = H_1  # what is measured: change this line
+measurement(P, measured)
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# ### A correlation is born
+# ### The first cross-covariance
 #
-# The first row's second block was zero. Now it is
+# The second block of the first row was zero. Now it is
 #
 # $$P_{\mathrm r1} = -P_{\mathrm{rr}} H_{\mathrm r}^{\mathsf T} S^{-1} H_{\mathrm p} P_{11}, \tag{07.4}$$
 #
-# a product of five matrices. One sighting has corrected both, robot and landmark 1, by the same
-# innovation with the same noise in it, so from now on they share an error. Landmark 2 is untouched:
-# two zeros and the old $P_{22}$.
+# a product of five matrices. The same innovation, with the same noise, has corrected both robot and
+# landmark 1, so now their errors are correlated. (Two watches that were set by the same clock have
+# correlated errors for the same reason.) The blocks of landmark 2 have not changed: they are two zeros
+# and the old $P_{22}$.
 #
-# **Try** `seen = sp.BlockMatrix([[Z(2, 3), -H_p, H_p]])`, a sensor that tells only how landmark
-# 2 lies relative to landmark 1. The robot's row stays as it was, and $P_{12}$ is born at once.
+# **Try** `measured = sp.BlockMatrix([[Z(2, 3), -H_p, H_p]])`, a sensor that measures only the position
+# of landmark 2 relative to landmark 1. The robot's row stays as it was, and $P_{12}$ becomes nonzero at
+# once.
 
-# %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Say it with people. Two friends set their watches by each other. If one watch
-# proves wrong later, the other is wrong in the same way. This is what a cross block keeps.
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# **Your turn.** Evaluate (07.4) with numbers: the robot and landmark 1 are uncorrelated, and landmark 1
+# is measured. The library's filter has computed the answer.
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=8
-# ## The second sighting
+# %% slideshow={"slide_type": "fragment"} tags=["your-turn"]
+stages, steps = landmark_correlations.two_observations(0.3, heading_sigma=0.05)
+(before, after, _), (first_step, _) = stages, steps
+Hr, Hp, S_inv = first_step.H[:, :3], first_step.H[:, 3:], np.linalg.inv(first_step.S)
+P_r1_new = ...  # from before[:3, :3], before[3:5, 3:5], Hr, Hp and S_inv
+compare(P_r1_new, after[:3, 3:5])
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# <details><summary>Answer</summary>
 #
-# Before the robot looks at landmark 2 it may drive. Lesson 06 derived what this does to the blocks:
+# ```python
+# stages, steps = landmark_correlations.two_observations(0.3, heading_sigma=0.05)
+# (before, after, _), (first_step, _) = stages, steps
+# Hr, Hp, S_inv = first_step.H[:, :3], first_step.H[:, 3:], np.linalg.inv(first_step.S)
+# P_r1_new = -before[:3, :3] @ Hr.T @ S_inv @ Hp @ before[3:5, 3:5]
+# ```
+#
+# </details>
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=7
+# ## The second measurement
+#
+# Before the robot measures landmark 2 it may move. Lesson 06 derived what this does to the blocks:
 #
 # $$P_{\mathrm{rr}} \leftarrow A P_{\mathrm{rr}} A^{\mathsf T} + Q, \qquad
 # P_{\mathrm ri} \leftarrow A P_{\mathrm ri}, \qquad P_{ij} \leftarrow P_{ij} \tag{07.5}$$
 #
-# The numbers of the robot's row change, but a zero block stays zero, and the map's blocks do not
-# change at all. So $P$ has the pattern that the first sighting has left. (From here on, the letters
-# stand for the blocks as they are now.) Who learns from the second?
+# The numbers in the robot's row change, but a zero block remains zero, and the map's blocks do not
+# change. So $P$ keeps the pattern of the first measurement. (From here on, the symbols denote the
+# current blocks.) Which estimates does the second measurement correct?
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 P_r1 = of("P_r1", 3, 2)
@@ -183,79 +204,85 @@ P_then = sp.BlockMatrix([[P_rr, P_r1, Z(3, 2)], [P_r1.T, P_11, Z(2, 2)], [Z(2, 3
 sp.block_collapse(P_then * H_2.T)
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# All three. Landmark 1 is **not in sight**, and yet its block $P_{\mathrm r1}^{\mathsf T} H_{\mathrm
-# r}^{\mathsf T}$ is not zero. Landmark 2 tells something about the robot, and landmark 1 was placed
-# by that robot.
+# The second measurement corrects all three. Landmark 1 is **not measured**, and yet its block
+# $P_{\mathrm r1}^{\mathsf T} H_{\mathrm r}^{\mathsf T}$ is not zero. The innovation of landmark 2 is
+# correlated with the robot's error, and since the first measurement the robot's error has been
+# correlated with that of landmark 1.
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="07-blocks"
-sighting(P_then, H_2)
+measurement(P_then, H_2)
 
-# %% [markdown] slideshow={"slide_type": "subslide"}
-# ### Two that were never seen together
+# %% [markdown] slideshow={"slide_type": "subslide"} answers="07-blocks"
+# ### Two landmarks that were never measured together
 #
 # Look at the last block of the second row:
 #
 # $$P_{12} = -P_{\mathrm r1}^{\mathsf T} H_{\mathrm r}^{\mathsf T} S^{-1} H_{\mathrm p} P_{22}
 # \tag{07.6}$$
 #
-# Nobody ever measured from one landmark to the other. They are correlated **by way of the robot**:
-# $P_{\mathrm r1}$ stands in the product. And no block is zero any more:
+# No single measurement involved both landmarks. They are correlated **through the robot**:
+# $P_{\mathrm r1}$ is a factor of the product. Now no block of $P$ is zero. The same happens with every
+# further measurement and every further landmark. In EKF-SLAM **all errors become correlated with all
+# others**, and in general they stay correlated.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Compare with what the class answered. Whoever said "only the one between the
-# landmarks": ask what happens to landmark 1 when we learn that the robot stood 10 cm further left.
-
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="07-blocks"
-def by_name(blocks):
-    """The six blocks of a symmetric matrix of 3 × 3 blocks: rr, r1, r2, 11, 12, 22."""
-    return {a + b: blocks[i, j] for i, a in enumerate("r12") for j, b in enumerate("r12") if j >= i}
-
-
-first, second = (by_name(sighting(*pair).result.blocks) for pair in ((P, H_1), (P_then, H_2)))
-for when, blocks in (("first", first), ("second", second)):
-    zero = [f"P_{block}" for block, value in blocks.items() if value.is_ZeroMatrix]
-    print(f"zero after the {when} sighting:", ", ".join(zero) or "none")
-
-# %% [markdown] slideshow={"slide_type": "fragment"} answers="07-blocks"
-# Every further sighting and every further landmark repeats this. In EKF-SLAM **all errors become
-# correlated with all others**, and stay so.
+# *For the lecturer:* Compare this with the answers of the class. If somebody chose "only the one
+# between the two landmarks", ask how the estimate of landmark 1 changes when we learn that the robot
+# stood 10 cm farther to the left.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
-# ## How strong is a correlation?
+# ## The correlation coefficient
 #
-# A block that is not zero may still be small. So we look at the correlation, $\rho = P_{ij} /
-# (\sigma_i \sigma_j)$, a pure number between −1 and 1.
+# A block that is not zero may still be small. The **correlation coefficient**
+# $\rho = P_{ij} / (\sigma_i \sigma_j)$ measures the strength of a correlation by a dimensionless number
+# between −1 and 1.
 #
-# Take a corridor, where each place is a single number, and landmarks of which nothing was known before. Each
-# is put where the robot believes that it sees it. Its error is the robot's, plus that of the sensor. If
-# the robot drives between the two sightings, which adds $Q$, the two errors share
-# $P_{\mathrm{rr}}$ and nothing else:
+# Consider a corridor, where each position is a single number, and landmarks about which nothing was
+# known before. Each landmark is added at the robot's estimated position plus the measured distance. Its
+# error is the sum of the robot's error and the sensor's error. If the robot moves between the two
+# measurements, which adds $Q$, then only the part with variance $P_{\mathrm{rr}}$ is common to both
+# errors:
 #
 # $$\rho_{12} = \frac{P_{\mathrm{rr}}}{\sqrt{(P_{\mathrm{rr}} + R)\,(P_{\mathrm{rr}} + Q + R)}}
 # \tag{07.7}$$
 
-# %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# **Your turn.** The robot's position has $\sigma = 0.3$ m, the motion adds another 0.3 m, and the ranges
+# have $\sigma = 0.05$ m. Compute the correlation coefficient of the two landmarks.
+
+# %% slideshow={"slide_type": "fragment"} tags=["your-turn"]
 ahead = {"pose": np.zeros(3), "landmarks": np.array([[2.0, 0.0], [3.0, 0.0]])}
-for robot_sigma, drive_sigma in ((0.02, 0.0), (0.3, 0.0), (0.3, 0.3)):
-    stages, _ = shared_errors.two_sightings(robot_sigma, drive_sigma, prior_sigma=100, **ahead)
-    P_robot, Q_drive, R_range = robot_sigma**2, drive_sigma**2, shared_errors.R[0, 0]
-    formula = P_robot / np.sqrt((P_robot + R_range) * (P_robot + Q_drive + R_range))
-    by_filter = correlation(stages[2])[3, 5]
-    print(f"robot ±{robot_sigma} m, drive ±{drive_sigma} m: {formula:.3f}, filter {by_filter:.3f}")
+stages, _ = landmark_correlations.two_observations(0.3, 0.3, prior_sigma=1000, **ahead)
+rho_12 = ...  # by (07.7)
+compare(rho_12, correlation(stages[2])[3, 5])
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The filter agrees with (07.7). The worse the robot knows where it is, compared with what its
-# sensor adds, the more its landmarks err together. A robot that knows its place makes a map without
-# correlations: that was lesson 05's second half.
+# <details><summary>Answer</summary>
+#
+# ```python
+# ahead = {"pose": np.zeros(3), "landmarks": np.array([[2.0, 0.0], [3.0, 0.0]])}
+# stages, _ = landmark_correlations.two_observations(0.3, 0.3, prior_sigma=1000, **ahead)
+# rho_12 = 0.3**2 / np.sqrt((0.3**2 + 0.05**2) * (0.3**2 + 0.3**2 + 0.05**2))
+# ```
+#
+# `compare` checks it against the correlation of the filter, which works in two dimensions.
+#
+# </details>
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# The larger the robot's uncertainty is, compared with the sensor's noise, the more strongly its
+# landmarks are correlated. A robot with an exactly known pose makes a map without correlations. This is
+# the mapping with known poses of lesson 05.
 
 
 # %% slideshow={"slide_type": "subslide"} answers="07-blocks" tags=["folded"]
-def blocks_fill(robot_sigma, drive_sigma):
-    stages, _ = shared_errors.two_sightings(robot_sigma, drive_sigma, heading_sigma=0.02)
+def blocks_fill(robot_sigma, motion_sigma):
+    stages, _ = landmark_correlations.two_observations(
+        robot_sigma, motion_sigma, heading_sigma=0.02
+    )
     strongest = abs(correlation(stages[2])[3:5, 5:]).max()
-    titles = ["at first", "1 was seen", f"2 as well: |ρ₁₂| up to {strongest:.2f}"]
-    fig, axes = views.panels(titles, size=(10, 3.8))
+    titles = ["at first", "1 measured", f"2 measured: |ρ₁₂| up to {strongest:.2f}"]
+    fig, axes = views.panels(titles, size=(9.2, 3.6))
     for ax, stage in zip(axes, stages, strict=True):
         views.correlation(correlation(stage), ["robot", "1", "2"], ax=ax)
         ax.set(xlabel="", ylabel="")
@@ -265,31 +292,32 @@ def blocks_fill(robot_sigma, drive_sigma):
 
 views.explore(
     blocks_fill,
-    lambda robot_sigma, drive_sigma: (
-        f"Three correlation matrices, robot known to {robot_sigma:.2f} m, drive to {drive_sigma:.2f}: "
-        "the first is block-diagonal, in the second robot and landmark one share a block, and in the "
-        "third no block is empty."
+    lambda robot_sigma, motion_sigma: (
+        f"Three correlation matrices, σ of the robot {robot_sigma:.2f} m, of the motion "
+        f"{motion_sigma:.2f} m: the first is block-diagonal, in the second the block of robot and "
+        "landmark one has a colour, and in the third no block is zero."
     ),
     robot_sigma=(0.02, 0.5, 0.3),
-    drive_sigma=(0.0, 1.0, 0.0),
+    motion_sigma=(0.0, 1.0, 0.0),
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="07-blocks"
-# White is zero, red and blue are strong. The corner of the two landmarks fills last. Make the robot
-# surer, and it pales; let the robot drive badly in between, and it pales as well, because landmark
-# 2 then errs mostly by what happened on the way.
+# White means zero; red and blue mean strong correlations. The block of the two landmarks becomes
+# nonzero last. Its correlations become weaker if you reduce the robot's uncertainty. They also become
+# weaker if the motion between the measurements is uncertain, because the error of landmark 2 then comes
+# mostly from this motion.
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=9
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=8
 # ## A whole loop
 #
-# Now 16 landmarks stand round a loop (simulated). The robot starts sure of its place, since that is
-# where it lays the origin of its map. It drives round once, and sees landmarks only from near by.
-# They are numbered as they come into sight.
+# Now we simulate 16 landmarks round a loop. The robot starts with an exact pose, since this pose
+# defines the origin of its map. The robot drives one lap, and its sensor range is 2.2 m. The landmarks
+# are numbered in the order of their first measurement.
 
 # %% slideshow={"slide_type": "fragment"}
 loop = Loop(landmarks=16, steps=96, v_sigma=0.04, omega_sigma=0.03, range_max=2.2)
 drive = LandmarkRun(loop, np.random.default_rng(7))
-slam, P_at, film = MakSlam(drive.robot, drive.sensor), [], []
+slam, P_at, film = EkfSlam(drive.robot, drive.sensor), [], []
 for k, reading in enumerate(drive):
     slam.step(reading)
     P_at.append(slam.filter.P)
@@ -300,15 +328,15 @@ for k, reading in enumerate(drive):
 # %% slideshow={"slide_type": "subslide"}
 ask(
     "07-closing",
-    "At the end of the lap the robot meets landmark 0 again, the first it ever saw. Landmark 9 "
-    "stands at the far end of the loop, out of sight. **What becomes of its ellipse?**",
+    "At the end of the lap the robot measures landmark 0 again, its very first one. Landmark 9 "
+    "is at the far end of the loop, out of range. **What happens to its ellipse?**",
     {
-        "nothing, until it is seen again": "that would be right if the robot and landmark 9 shared "
-        "no error; but it was this robot that placed it.",
-        "it shrinks at once": "the robot learns by how much it was wrong, and so by how much it was "
-        "wrong when it placed landmark 9.",
-        "it grows, as the map is torn": "the filter moves the map as a whole, and it never loses "
-        "certainty by a sighting.",
+        "nothing, until it is measured again": "this would be right if the errors of robot and "
+        "landmark 9 were uncorrelated. But the robot added landmark 9 with its own error.",
+        "it shrinks at once": "the innovation gives information about the pose error, which is "
+        "correlated with the error of landmark 9.",
+        "it grows, because the map is torn": "the filter corrects the whole map, and no update "
+        "increases a variance.",
     },
     right="it shrinks at once",
 )
@@ -317,11 +345,11 @@ ask(
 # %% slideshow={"slide_type": "subslide"} answers="07-closing" tags=["folded"]
 def frame(step, landmark):
     """Map and correlation matrix at a step, one landmark marked."""
-    places, rho, drawn = film[step]
-    names, room = range(len(places)), len(film[-1][0])
-    marked = min(landmark, len(places) - 1)
-    size = (10, 4.6)
-    fig, (map_, _) = views.linked(places, rho, names, marked, drawn, room, (-7, 7, -3, 10.5), size)
+    positions, rho, drawn = film[step]
+    names, room = range(len(positions)), len(film[-1][0])
+    marked = min(landmark, len(positions) - 1)
+    view = (-7, 7, -3, 10.5)
+    fig, (map_, _) = views.linked(positions, rho, names, marked, drawn, room, view, (9.2, 4.4))
     map_.set_title(f"{2 * step} s, marked: {marked}")
     return fig
 
@@ -329,8 +357,8 @@ def frame(step, landmark):
 views.explore(
     frame,
     lambda step, landmark: (
-        f"A map with ellipses at {2 * step} s beside the correlation matrix, which fills as landmarks "
-        f"are seen; landmark {landmark} is framed, the colours are its correlations."
+        f"A map with ellipses at {2 * step} s beside the correlation matrix; landmark {landmark} "
+        "is framed, and the colours of the map show its correlations."
     ),
     play="step",
     step=(0, len(film) - 1, 37),
@@ -338,47 +366,44 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="07-closing"
-# The true way is black, the estimate blue. A landmark's colour is its correlation with the one in
-# the square, whose rows and columns are framed on the right (of the 2 × 2 block, the mean of x with
-# x and y with y). Just before the loop closes, 5 and its neighbours are red: they err *together*.
-# Number 0, seen from the start, errs alone. Now press ▶. At a single look at number 0 the robot
-# jumps back to where it is, and what it had misplaced moves along.
+# The true trajectory is black, the estimate blue. A landmark's colour shows its correlation with the
+# landmark in the square, whose rows and columns are framed on the right. (The colour is the mean of two
+# correlations, x with x and y with y.) Just before the loop closure, 5 and its neighbours are red:
+# their errors are strongly *correlated*. Landmark 0, measured from the start, is uncorrelated with
+# them. Now press ▶. A single measurement of landmark 0 moves the estimated pose close to the true one,
+# and moves the landmarks that were added with a large pose error in the same direction.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Play it twice, once looking at the map, once at the matrix. Then mark number 12,
-# go to the end, and ask why its neighbours are redder than landmarks far away.
+# *For the lecturer:* Play it twice: look at the map first, then at the matrix. Then mark landmark 12,
+# go to the end, and ask why its neighbours have stronger correlations with it than distant landmarks.
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="07-closing"
 met = slam.filter.ids[0]  # the source's name of landmark 0
 again = next(k for k, each in enumerate(drive) if k > 48 and met in each.observations.ids)
-spreads = {}
-for second_of_run in (again - 1, again, again + 4, 96):
-    P_k = P_at[second_of_run]
-    both = [np.sqrt(np.trace(P_k[j : j + 2, j : j + 2])) for j in (0, 3 + 2 * 9)]
-    spreads[second_of_run] = 100 * np.array(both)
-    print(
-        "{} s: robot ±{:2.0f} cm, landmark 9 ±{:2.0f} cm".format(
-            second_of_run, *100 * np.array(both)
-        )
-    )
+sigmas = {}
+for k in (again - 1, again, again + 4, 96):
+    both = [np.sqrt(np.trace(P_at[k][j : j + 2, j : j + 2])) for j in (0, 3 + 2 * 9)]
+    sigmas[k] = 100 * np.array(both)
+    print(f"{k} s: σ of the robot {sigmas[k][0]:2.0f} cm, of landmark 9 {sigmas[k][1]:2.0f} cm")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="07-closing"
-# At {= again =} s the robot sees landmark 0 again. In that one second landmark 9, unseen, goes from
-# ±{= spreads[again - 1][1]:.0f =} cm to ±{= spreads[again][1]:.0f =} cm. This is the second sighting of our
-# example on a large scale: the robot's block with landmark 9 brings it the news. Without that block
-# no word would reach it.
+# (Here σ is $\sqrt{\sigma_x^2 + \sigma_y^2}$, the root of the block's trace.) At {= again =} s the
+# robot measures landmark 0 again. In this one second, σ of landmark 9, which is out of range, falls
+# from {= sigmas[again - 1][1]:.0f =} cm to {= sigmas[again][1]:.0f =} cm. The reason is the same as for
+# the second measurement of our example: the gain of landmark 9 contains its cross-covariances with the
+# robot and with landmark 0. Without these blocks its gain would be zero.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
-# ## What a map errs by
+# ## The rigid error of a map
 #
-# A matrix of 35 × 35 correlations looks bewildering. Most of it has a simple cause: the map is
-# displaced, or turned, **as a whole**. If it is turned by a small angle $\delta$ about the origin,
-# landmark $i$ moves by
+# A matrix of 35 × 35 correlations is hard to interpret. But most of the correlations have a simple
+# cause: the map is displaced, or rotated, **as a whole**. If it is rotated by a small angle $\delta$
+# about the origin, landmark $i$ moves by
 #
 # $$\tilde p_i = \delta \begin{pmatrix} -y_i \\ x_i \end{pmatrix}. \tag{07.8}$$
 #
-# The farther out it stands, the more it moves. So one unknown angle, with the variance
-# $\sigma_\delta^2$, makes all these covariances:
+# This displacement grows with the distance from the origin. So one unknown angle, with the variance
+# $\sigma_\delta^2$, causes all these covariances:
 #
 # $$E[\tilde x_i \tilde x_j] = \sigma_\delta^2\, y_i y_j, \qquad
 # E[\tilde x_i \tilde y_j] = -\sigma_\delta^2\, y_i x_j. \tag{07.9}$$
@@ -386,133 +411,137 @@ for second_of_run in (again - 1, again, again + 4, 96):
 # %% slideshow={"slide_type": "subslide"}
 ask(
     "07-sign",
-    "The map is uncertain by a turn about the start. **How do the x error of landmark i and the y "
-    "error of another landmark j go together?**",
+    "The map has an unknown rotation about the start. **What is the sign of the correlation between "
+    "the x error of landmark i and the y error of another landmark j?**",
     {
-        "alike": "so do the x errors of two landmarks on the same side of the start, by (07.9).",
-        "against each other": "look at the signs in (07.9): the product is negative only if both "
+        "positive": "this is true for the x errors of two landmarks on the same side of the "
+        "start, by (07.9).",
+        "negative": "look at the signs in (07.9): the product is negative only if both "
         "factors have the same sign.",
-        "it depends on where the two stand": "on whether i lies left of the start, and on whether j "
-        "lies ahead of it.",
+        "it depends on where the two are": "the sign depends on whether i is to the left of the "
+        "start, and on whether j is ahead of it.",
     },
-    right="it depends on where the two stand",
+    right="it depends on where the two are",
 )
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="07-sign"
-places, P_map = film[37][0], P_at[74][3:, 3:]
+positions, P_map = film[37][0], P_at[74][3:, 3:]
 rho_xy = correlation(P_at[74])[3::2, 4::2]
-foretold = -np.outer(places[:, 1], places[:, 0])  # the sign by (07.9)
-strong = (abs(rho_xy) > 0.3) & ~np.eye(len(places), dtype=bool)
-as_foretold, against = np.mean((rho_xy * foretold)[strong] > 0), np.mean(rho_xy[strong] < 0)
-shifts, turn = shared_errors.rigid_share(P_map, places)
-print(f"{strong.sum()} strong correlations of x with y: {100 * against:.0f} % are negative")
-print(f"{100 * as_foretold:.0f} % have the sign that (07.9) foretells")
-print(
-    f"of all the map's variance, {100 * shifts:.0f} % is displacement and {100 * turn:.0f} % a turn"
-)
+predicted = -np.outer(positions[:, 1], positions[:, 0])  # the sign by (07.9)
+strong = (abs(rho_xy) > 0.3) & ~np.eye(len(positions), dtype=bool)
+as_predicted, negative = np.mean((rho_xy * predicted)[strong] > 0), np.mean(rho_xy[strong] < 0)
+shifts, turn = landmark_correlations.rigid_share(P_map, positions)
+print(f"{strong.sum()} strong correlations of x with y: {100 * negative:.0f} % are negative")
+print(f"{100 * as_predicted:.0f} % have the sign that (07.9) predicts")
+print(f"of the map's variance, {100 * shifts:.0f} % is translation and {100 * turn:.0f} % rotation")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="07-sign"
-# Just before the loop closes, {= 100 * (shifts + turn):.0f =} % of the map's variance is that of a
-# stiff plate that is pushed about on a table. Only the rest bends the map. So the *shape* of the
-# map is known better than its place. We shall meet this again, twice.
+# Just before the loop closure, {= 100 * (shifts + turn):.0f =} % of the map's variance is caused by
+# rigid displacements and rotations of the whole map. Only the rest deforms the map. So the *shape* of
+# the map is known better than its position. Two later sections use this result.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* This is a good place for the break. A sheet of paper on the desk, pushed and
-# turned, shows (07.8) faster than any formula. Ask which landmark moves most.
+# *For the lecturer:* This is a good place for the break. You can demonstrate (07.8) with a sheet of
+# paper that you shift and rotate on the desk. Ask which landmark moves most.
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=10
-# ## Part two: drop them
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=8
+# ## Part two: dropped correlations
 #
-# The correlations fill the whole matrix, and they cost memory and time. It is tempting to keep only
-# the diagonal blocks, $N + 1$ small covariances, and to forget the rest after each step. The filter
-# still sees the same landmarks with the same noise. We try it on simulated laps, with a filter of the
-# package that keeps any share of the cross blocks:
+# The correlations fill the whole matrix, so they need memory and computing time. Could the filter keep
+# only the diagonal blocks, $N + 1$ small covariances, and drop all other blocks after each step? The
+# filter still gets the same measurements with the same noise. We test this idea on simulated laps, with
+# a filter of the library that keeps a given share of the cross blocks (after each update and each
+# augmentation):
 
 # %% slideshow={"slide_type": "fragment"}
 LAP, RUNS = Loop(steps=90), 16
 
 
 @cache
-def laps(share_kept, wheel_noise):
+def laps(share_kept, odometry_noise):
     """Simulated laps of a filter that keeps a share of every cross block after each step."""
-    noise = {name: wheel_noise * getattr(LAP, name) for name in ("v_sigma", "omega_sigma")}
-    return forgetting.laps(replace(LAP, **noise), share_kept, RUNS)
+    noise = {name: odometry_noise * getattr(LAP, name) for name in ("v_sigma", "omega_sigma")}
+    return dropped_correlations.laps(replace(LAP, **noise), share_kept, RUNS)
 
 
-def mean_nees(share_kept, wheel_noise=1.0):
-    return np.mean([lap.nees for lap in laps(share_kept, wheel_noise)], axis=0)
+def mean_nees(share_kept, odometry_noise=1.0):
+    return np.mean([lap.nees for lap in laps(share_kept, odometry_noise)], axis=0)
 
 
 # %% slideshow={"slide_type": "subslide"}
 ask(
     "07-drop",
-    "A filter throws all cross blocks away after each step. **Where is its NEES** (3 on average for "
-    "an honest filter) **on a lap of the loop?**",
+    "A filter drops all cross blocks after each step. **What is its NEES** (3 on average for "
+    "a consistent filter) **on a lap of the loop?**",
     {
-        "near 3: they were small anyway": "just before the loop closed, many were near 1.",
-        "below 3: it knows less, so it claims less": "it does know less. But it takes each "
-        "sighting for fresh news, so it does not know that it knows less.",
-        "far above 3: it is too sure": "it takes each sighting for news, even where it hears its own "
-        "error come back.",
+        "near 3: the correlations were small anyway": "just before the loop closure, many "
+        "correlations were near 1.",
+        "below 3: it has less information, so it is conservative": "the filter does lose "
+        "information. But it treats each measurement as independent information, so its P "
+        "becomes too small.",
+        "far above 3: it is overconfident": "it treats each measurement as independent information, "
+        "even where the landmark contains the robot's own error.",
     },
-    right="far above 3: it is too sure",
+    right="far above 3: it is overconfident",
 )
 
 
 # %% slideshow={"slide_type": "subslide"} answers="07-drop" tags=["folded"]
-def forget(share_kept, wheel_noise):
+def drop(share_kept, odometry_noise):
     """Mean NEES of the pose: all kept, and a share kept at each step."""
     some = "nothing kept" if share_kept == 0 else f"{share_kept:.2f} kept at each step"
     values = {
-        name: mean_nees(s, wheel_noise) for name, s in (("all kept", 1.0), (some, share_kept))
+        name: mean_nees(s, odometry_noise) for name, s in (("all kept", 1.0), (some, share_kept))
     }
-    times = forgetting.BEGIN + np.arange(len(values["all kept"]))
+    times = dropped_correlations.BEGIN + np.arange(len(values["all kept"]))
     title = f"{RUNS} laps; highest {values[some].max():.0f}"
     return views.against_band(times, values, band(3, RUNS), "time [s]", "mean NEES [1]", title)[0]
 
 
 views.explore(
-    forget,
-    lambda share_kept, wheel_noise: (
-        f"With all cross blocks NEES stays about its band; with {share_kept:.2f} of them kept at each "
-        f"step, and {wheel_noise:.1f} times the usual noise of the wheels, it reaches "
-        f"{mean_nees(share_kept, wheel_noise).max():.0f}."
+    drop,
+    lambda share_kept, odometry_noise: (
+        f"With all cross blocks NEES stays near its band; with {share_kept:.2f} of them kept at "
+        f"each step, and {odometry_noise:.1f} times the usual noise of odometry, it reaches "
+        f"{mean_nees(share_kept, odometry_noise).max():.0f}."
     ),
     share_kept=(0.0, 1.0, 0.0),
-    wheel_noise=(0.5, 2.0, 1.0),
+    odometry_noise=(0.5, 2.0, 1.0),
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="07-drop"
-# With all terms NEES never exceeds {= mean_nees(1.0).max():.1f =}, and the band ends at
-# {= band(3, RUNS)[1]:.1f =}. With none it climbs to {= mean_nees(0.0).max():.0f =}: errors
-# {= np.sqrt(mean_nees(0.0).max() / 3):.0f =} times as large as claimed. It falls when the loop
-# closes, but the filter has not become honest: the first landmarks are well known, and they pull the
-# robot back. Half measures do not help. A filter that keeps nine tenths at each step still reaches
-# {= mean_nees(0.9).max():.0f =}.
+# With all cross blocks the mean NEES never exceeds {= mean_nees(1.0).max():.1f =}; the upper limit of
+# the band is {= band(3, RUNS)[1]:.1f =}. Without cross blocks it rises to
+# {= mean_nees(0.0).max():.0f =}: the errors are {= np.sqrt(mean_nees(0.0).max() / 3):.0f =} times as
+# large as $P$ predicts. The NEES falls at the loop closure, because the first landmarks have small
+# errors and correct the pose, but the filter remains overconfident. A filter that keeps a share of 0.9
+# at each step still reaches {= mean_nees(0.9).max():.0f =}; with 0.95 it reaches
+# {= mean_nees(0.95).max():.1f =}, and with 0.99 {= mean_nees(0.99).max():.1f =}. In this example only a
+# share of about 0.99 causes no visible overconfidence.
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="07-drop"
 kept, dropped = laps(1.0, 1.0), laps(0.0, 1.0)
 for name, some in (("all kept", kept), ("nothing kept", dropped)):
     better = sum(lap.rms < lap.wheels_rms for lap in some)
-    print(f"{name}: rms error {np.median([lap.rms for lap in some]):.2f} m (median), smaller than")
-    print(f"  that of the wheels alone in {better} of {RUNS} laps;")
-    print(
-        f"  {100 * np.mean([lap.inside for lap in some]):.0f} % of the 95 % ellipses hold their landmark"
-    )
-wheels_rms = np.median([lap.wheels_rms for lap in kept])
+    inside = 100 * np.mean([lap.inside for lap in some])
+    print(f"{name}: rms error {np.median([lap.rms for lap in some]):.2f} m (median),", end=" ")
+    print(f"less than odometry's in {better} of {RUNS} laps;")
+    print(f"  {inside:.0f} % of the 95 % ellipses contain their landmark")
+odometry_rms = np.median([lap.wheels_rms for lap in kept])
 closer = sum(a.rms < b.rms for a, b in zip(kept, dropped, strict=True))
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="07-drop"
-# The wheels alone err by {= wheels_rms:.2f =} m. So the forgetful filter's *estimates* are not that
-# bad: on most laps it beats its wheels, and the full filter is nearer to the truth on no more than
-# {= closer =} of {= RUNS =}. What it has lost is any idea of **how wrong it is**.
+# Odometry alone has an rms error of {= odometry_rms:.2f =} m. So the *estimates* without correlations
+# are still useful: on most laps they are more accurate than odometry, and the full filter is nearer to
+# the truth on only {= closer =} of {= RUNS =} laps. But the **covariance** of the filter without
+# correlations is wrong.
 
 # %% slideshow={"slide_type": "subslide"} answers="07-drop" tags=["folded"]
 pictures = {}
 for name, some in (("all kept", kept), ("nothing kept", dropped)):
     layers = some[3].slam.layers()
     pictures[name] = [Points("truth", some[3].run.landmarks), layers[1], layers[2]]
-fig, axes = views.side_by_side(pictures, size=(10, 4.2))
+fig, axes = views.side_by_side(pictures, size=(9.2, 4))
 for ax in axes:
     ax.set(xlim=(-4.8, 4.8), ylim=(4, 10.5))  # the far half of the loop
     ax.lines[0].set_markersize(5)
@@ -520,25 +549,24 @@ for ax in axes:
 views.legend_below(fig)
 views.show(
     fig,
-    f"{100 * kept[3].inside:.0f} % of the ellipses on the left hold their landmarks; on the right the ellipses "
-    f"are tiny, and {100 * dropped[3].inside:.0f} % do.",
+    f"{100 * kept[3].inside:.0f} % of the ellipses on the left contain their landmarks; on the "
+    f"right the ellipses are tiny, and {100 * dropped[3].inside:.0f} % contain them.",
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="07-drop"
-# This is the far half of one of these laps. On the left, ellipses hold the black points; on the right,
-# tiny ellipses stand beside them. The robot sees a landmark again where it expects it, and concludes that both were
-# right. But the landmark was placed *by this robot*, and repeats the robot's own error. **One witness
-# was asked twice, and counted as two.**
+# The figure shows the far half of one of these laps. On the left, the 95 % ellipses contain the black
+# points; on the right, the ellipses are tiny and do not contain them. The innovation of a landmark is
+# small, and the update shrinks $P$ as if the measurement were independent information. But the same
+# robot added the landmark *with its own error*. **The filter counts the same information twice.** (A
+# reader who takes the reports of two newspapers for independent evidence makes the same mistake if both reports come from one news agency.)
 
-# %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* The last sentence is the lesson; let it stand a moment. The correlation is the
-# memory of who told whom. Ask where else this happens: rumours, two newspapers with one agency.
-
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=7
-# ## The map's certainty never falls
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
+# ## Determinant and volume of a covariance
 #
-# While the robot drives blind, it becomes less certain. What do the landmarks do meanwhile, and the
-# vectors between them? The vector from landmark $i$ to landmark $j$ has the covariance
+# The **determinant and volume of a covariance** are related: the area (in $n$ dimensions the volume) of
+# a confidence ellipse is proportional to $\sqrt{\det P}$. While the robot drives without measurements,
+# the determinant of its covariance grows. How do the determinants of the landmarks, and of the vectors
+# between them, change meanwhile? The vector from landmark $i$ to landmark $j$ has the covariance
 #
 # $$\Delta p_{ij} = p_j - p_i, \qquad \Delta P_{ij} = P_{ii} - P_{ij} - P_{ji} + P_{jj}. \tag{07.10}$$
 
@@ -546,20 +574,20 @@ views.show(
 ask(
     "07-grow",
     "We draw the areas of three ellipses over the loop: the robot's, that of landmark 5, that of the "
-    "vector from 5 to 6. **Which of them ever grow?**",
+    "vector from 5 to 6. **Which of them can grow?**",
     {
-        "all three, as long as the robot drives blind": "landmarks do not move, and (07.5) leaves "
-        "the map's blocks alone.",
-        "the robot's only": "an update takes away from every ellipse, and only the robot's is ever "
-        "added to.",
-        "the robot's and the landmark's": "what should make a landmark less certain? Look for a step "
-        "that adds to its block.",
+        "all three, as long as the robot drives without measurements": "the landmarks do not "
+        "move, and (07.5) does not change the map's blocks.",
+        "the robot's only": "an update can only reduce a covariance, and the prediction adds "
+        "process noise only to the robot's covariance.",
+        "the robot's and the landmark's": "which step of the filter could increase the "
+        "covariance of a landmark? Neither of them adds anything to its block.",
     },
     right="the robot's only",
 )
 
 
-# %% slideshow={"slide_type": "subslide"} answers="07-grow" tags=["folded"]
+# %% slideshow={"slide_type": "fragment"} answers="07-grow" tags=["folded"]
 def parts(P):
     """The blocks P_ij of a map, (N, N, 2, 2), and the ΔP_ij of (07.10) likewise."""
     n = len(P) // 2 - 1
@@ -569,10 +597,11 @@ def parts(P):
 
 
 def area(covariance):
-    """Of the 95 % ellipse [m²]."""
+    """Area of the 95 % ellipse [m²]."""
     return np.pi * 5.99 * np.sqrt(max(np.linalg.det(covariance), 0))
 
 
+# %% slideshow={"slide_type": "subslide"} answers="07-grow" tags=["folded"]
 sizes = {"robot": [], "landmark 5": [], "vector from 5 to 6": []}
 for P_k in P_at:
     blocks, relative = parts(P_k)
@@ -580,33 +609,674 @@ for P_k in P_at:
     sizes["robot"].append(area(P_k[:2, :2]))
     sizes["landmark 5"].append(area(blocks[5, 5]) if known else np.nan)
     sizes["vector from 5 to 6"].append(area(relative[5, 6]) if known else np.nan)
-fig, ax = views.curves(np.arange(97), sizes, "time [s]", "95 % ellipse [m²]", size=(8, 4))
+fig, ax = views.curves(np.arange(97), sizes, "time [s]", "area, 95 % ellipse [m²]", size=(8, 4))
 for line, meaning in zip(ax.lines, ("robot", "landmark", "corrected"), strict=True):
     line.set_color(views.COLOURS[meaning])
 views.legend(ax)
 ax.set(yscale="log", ylim=(1e-3, 10))
 views.show(
     fig,
-    f"The robot's area rises to {max(sizes['robot']):.1f} square metres, falls as the loop closes and "
-    "rises again; a landmark's and a vector's only fall.",
+    f"The robot's area rises to {max(sizes['robot']):.1f} square metres, falls at the loop "
+    "closure and rises again; the areas of the landmark and of the vector only fall.",
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="07-grow"
-# The robot's curve rises until the loop closes, falls steeply, and rises again. Landmark 5 and the
-# vector from 5 to 6 only go down. And the vector is known better than the landmark: what the two
-# landmarks share drops out of their difference.
-
-# %% [markdown] slideshow={"slide_type": "subslide"}
-# ### A law, not a curve
+# The robot's area rises until the loop closure, falls steeply, and rises again. The areas of landmark 5
+# and of the vector from 5 to 6 only fall. The vector has a smaller uncertainty than the landmark,
+# because the common error of the two landmarks cancels in their difference.
 #
-# Take the rows of the map out of an update. What they lose is $K S K^{\mathsf T}$ in these rows, and
-# that is a square:
+# In general, an update subtracts a positive semidefinite matrix from the map's block of $P$:
 #
 # $$P_{\mathrm{map}} \leftarrow P_{\mathrm{map}} - B B^{\mathsf T}, \qquad B = K_{\mathrm{map}}\,
 # S^{1/2}. \tag{07.11}$$
 #
-# No variance grows by this, in any direction, and neither does any determinant (the proof stands
-# under *Deeper*). We check at every step, for every landmark and up to 120 pairs:
+# So no variance and no determinant of the map ever grows (*Deeper* checks this at every step of the
+# lap). This holds for *any* Jacobians. For single landmarks it also holds in the filter without cross
+# blocks, which was overconfident. **So a covariance that never grows does not prove that the filter is
+# consistent.**
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# **Your turn.** `P_end` is the covariance of the map at the end of the lap. Compute the covariance of
+# the vector from landmark 5 to landmark 6 by (07.10).
+
+# %% slideshow={"slide_type": "fragment"} tags=["your-turn"]
+P_end = P_at[-1][3:, 3:]  # landmark i has the rows and columns 2i and 2i + 1
+P_vector = ...
+compare(P_vector, parts(P_at[-1])[1][5, 6])
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# <details><summary>Answer</summary>
+#
+# ```python
+# P_end = P_at[-1][3:, 3:]  # landmark i has the rows and columns 2i and 2i + 1
+# P_vector = P_end[10:12, 10:12] - P_end[10:12, 12:14] - P_end[12:14, 10:12] + P_end[12:14, 12:14]
+# ```
+#
+# </details>
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
+# ## The limit of the map's covariance
+#
+# No variance of the map grows. Do all of them converge to zero? Suppose that a robot drives for ever.
+# Its initial position has a standard deviation of 20 cm in x and in y. The robot has a perfect compass,
+# so its heading is exact.
+
+# %% slideshow={"slide_type": "fragment"}
+ask(
+    "07-limit",
+    "**What is the final standard deviation of a landmark in centimetres, in x and in y each?**",
+    right=20,
+    tolerance=2,
+    unit="cm",
+    reason="the best possible value is that of the start: no measurement determines the "
+    "position of the start, and every landmark depends on this position.",
+    wrong={
+        0: "the vectors between the landmarks become nearly exact, but the position of the "
+        "whole map does not.",
+        10: "averaging reduces independent noise, but the error of the start is the same in "
+        "every measurement.",
+        28: "this is the value for both axes together; the question is about each axis.",
+    },
+)
+
+# %% slideshow={"slide_type": "fragment"} answers="07-limit" tags=["folded"]
+long_run = cache(landmark_correlations.long_run)  # of (turn_noise, start_sigma)
+_, own, vector, compass_map = long_run(0.0, 0.2)
+exact_start = long_run(0.0, 0.0)[1]
+
+
+# %% slideshow={"slide_type": "subslide"} answers="07-limit" tags=["folded"]
+def for_ever(turn_noise, start_sigma):
+    """σ of a landmark and of a vector over many laps, with a compass and with noisy turns."""
+    found = {"compass": long_run(0.0, start_sigma)}
+    if turn_noise:
+        found["no compass"] = long_run(turn_noise, start_sigma)
+    fig, ax = views.chart("laps", "σ of x and of y [m]", size=(8, 4))
+    for (name, (laps_, *both, _)), line in zip(found.items(), ("-", "--"), strict=False):
+        for what, sigma in zip(("landmark", "vector"), both, strict=True):
+            colour = views.COLOURS["landmark" if what == "landmark" else "corrected"]
+            ax.plot(laps_, sigma, line, color=colour, label=f"{what}, {name}")
+    ax.axhline(
+        start_sigma, color=views.COLOURS["limit"], ls="dashdot", lw=1, label="σ of the start"
+    )
+    ax.set_ylim(0, 2.4 * max(start_sigma, 0.2))
+    views.legend(ax, ncols=2, loc="upper center")
+    return fig
+
+
+views.explore(
+    for_ever,
+    lambda turn_noise, start_sigma: (
+        f"σ of the start is {start_sigma:.2f} m. With a compass σ of a landmark comes close to "
+        "this value, and σ of the vector to the next landmark falls further; with a turn noise "
+        f"of {turn_noise:.3f} rad/s both remain larger."
+    ),
+    turn_noise=(0.0, 0.03, 0.012),
+    start_sigma=(0.0, 0.4, 0.2),
+)
+
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="07-limit"
+# The grey line, σ of the start, is a *lower bound*. With a compass, σ of the landmark comes close to
+# this bound: after twelve laps it is {= own[-1]:.3f =} m per axis. But σ does not reach the bound. Set
+# σ of the start to 0: the bound is 0, and σ of the landmark is {= exact_start[-1]:.3f =} m, because
+# only the first measurements and the noisy odometry connect the start with the map. The σ of the vector
+# to the next landmark, {= vector[-1]:.3f =} m, keeps falling.
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# ### One common error
+#
+# In the limit, and with exact headings, all landmarks have the same error. The map becomes *fully
+# correlated*, and its vectors become exact:
+#
+# $$P_{ij} \to P_{\text{start}} + C \text{ for all } i, j, \qquad \Delta P_{ij} \to 0. \tag{07.12}$$
+#
+# $C \ge 0$ is the covariance of the map relative to the start that remains because of the noise of
+# odometry and sensor. $C$ is zero only if odometry or sensor has no noise, so $P_{\text{start}}$ is a
+# lower bound (Dissanayake and others 2001).
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="07-limit"
+*_, turned_map = long_run(0.012, 0.2)
+for name, mak in (("compass", compass_map), ("no compass", turned_map)):
+    shifts, turn = landmark_correlations.rigid_share(mak.P[3:, 3:], mak.landmarks())
+    rho = correlation(mak.P)[9, 11]  # x of one landmark and x of the next
+    print(f"{name}: correlation of two neighbours {rho:.3f}; of the map's variance")
+    shares = 100 * np.array([shifts, turn, 1 - shifts - turn])
+    print("  {:.1f} % translation, {:.1f} % rotation, {:.1f} % deformation".format(*shares))
+
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="07-limit"
+# Without a compass one more quantity stays unknown: **the rotation of the map relative to the start**.
+# The heading at the start is exact here, by definition. But the robot had turned with some noise before
+# it added most of its landmarks, and no later measurement can distinguish this heading error from a
+# rotation of the whole map. The shape of the map nevertheless becomes precise: almost the whole
+# remaining error is translation and rotation.
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* The classic proof assumes a linear system, in which headings are known. Ask which
+# quantities of a map can become exact without a compass. (Answer: distances and angles.)
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=4
+# ## Computational complexity O(N²)
+#
+# A map of $N$ landmarks has a covariance of
+#
+# $$(3 + 2N)^2 \text{ numbers,} \tag{07.13}$$
+#
+# and each update changes all of them. So EKF-SLAM has a **computational complexity O(N²)** per
+# measurement: for large $N$, the number of operations and the memory grow with $N^2$.
+
+# %% slideshow={"slide_type": "fragment"}
+ask(
+    "07-price",
+    "The number of landmarks in a large map doubles. **By what factor does the number of "
+    "entries of P that one update changes increase?**",
+    right=4,
+    tolerance=0.4,
+    reason="P has twice as many rows, each of them twice as long, and every number changes.",
+    wrong={
+        2: "this is right for the state x, but P has a row and a column for each entry of x.",
+        8: "the inversion of P would cost N³ operations, but the update inverts S, which has "
+        "the size of the measurement.",
+        1: "this would be right if the landmarks were uncorrelated, as in lesson 05.",
+    },
+)
+
+
+# %% slideshow={"slide_type": "subslide"} answers="07-price" tags=["folded"]
+def price(N, updates=7):
+    """Bytes of P, and seconds of one step with four landmarks in range (the best of some)."""
+    rng, R = np.random.default_rng(N), np.diag([0.1, 0.03]) ** 2
+    mak = MAK([0.3, -0.2, 0.4], np.diag([0.02, 0.03, 0.01]), N)
+    mak.add(range(N), np.column_stack([rng.uniform(1, 20, N), rng.uniform(-3, 3, N)]), R)
+    took = []
+    for _ in range(updates):
+        began = perf_counter()
+        mak.predict(mak.pose, 1e-6 * np.eye(3))
+        mak.update(range(4), models.h(mak.pose, mak.landmarks()[:4]), R)
+        took.append(perf_counter() - began)
+    return mak.P.nbytes, min(took)
+
+
+N_tried = np.array([50, 100, 200, 400, 800, 1600])
+memory, seconds = np.array([price(N) for N in N_tried]).T
+slope, _ = np.polyfit(np.log(N_tried[-3:]), np.log(seconds[-3:]), 1)
+assert (memory == 8 * (3 + 2 * N_tried) ** 2).all()  # (07.13), eight bytes a number
+
+# %% slideshow={"slide_type": "fragment"} answers="07-price" tags=["folded"]
+fig, _ = views.growth(
+    N_tried,
+    {"time [ms]": 1e3 * seconds, "memory [MB]": memory / 1e6},
+    {"grows as N²": 1e3 * seconds[-1] * (N_tried / N_tried[-1]) ** 2},
+    "number N of landmarks",
+    "time of a step [ms], memory of P [MB]",
+    size=(8, 4),
+)
+views.show(
+    fig, f"Memory is parallel to the line N²; for large N, time grows as N to the {slope:.1f}."
+)
+
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="07-price"
+# On these logarithmic axes a power of $N$ is a straight line, and its slope is the exponent. The memory
+# follows (07.13). The computing time is nearly constant at first, because function calls take more time
+# than the arithmetic. From 400 landmarks on it grows as $N^{ {= slope:.1f =} }$ on the machine that ran
+# this. (The number of operations grows as $N^2$. The measured exponent also depends on how much of $P$
+# fits into the processor's cache.) As long as every update changes every number of $P$, the cost cannot
+# be lower than $O(N^2)$. Every faster method has to change fewer numbers.
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=4
+# ## The compressed EKF
+#
+# Suppose that the robot works in one corner of its map. Is it necessary to update the distant landmarks
+# at every measurement? J. Guivant and E. Nebot postpone these updates. Let region $a$ contain the robot
+# and the landmarks around it, and region $b$ the rest. As long as the robot measures only $a$, three
+# small quantities contain all information that the later update of $b$ needs: a product $\varphi$ (with
+# $\varphi \leftarrow A\varphi$ at a prediction and $\varphi \leftarrow (I - KH)\varphi$ at an update),
+# and two sums $\psi$ and $\vartheta$:
+#
+# $$P_{ab} \leftarrow \varphi P_{ab}, \qquad P_{bb} \leftarrow P_{bb} - P_{ba}\, \psi\, P_{ab}, \qquad
+# \hat x_b \leftarrow \hat x_b + P_{ba}\, \vartheta. \tag{07.14}$$
+#
+# This *global update* is computed once, when the robot leaves the region.
+
+# %% slideshow={"slide_type": "subslide"}
+ask(
+    "07-delay",
+    "The **compressed EKF** updates the far landmarks only once for many measurements. **How much "
+    "accuracy does the delay cost?**",
+    {
+        "none": "as long as the robot measures only region a, P_ab is only multiplied by "
+        "matrices from the left, and their product can be applied later in one step.",
+        "a little, because the far landmarks are corrected too late": "nothing that happens in region "
+        "a depends on the estimates of region b.",
+        "much: their correlations are dropped": "they are not dropped; they are multiplied by φ later.",
+    },
+    right="none",
+)
+
+# %% slideshow={"slide_type": "fragment"} answers="07-delay"
+wide = LandmarkRun(Loop(landmarks=40, steps=168), np.random.default_rng(7))
+readings, slam = list(wide), EkfSlam(wide.robot, wide.sensor)
+for reading in readings[:85]:  # the first lap makes the map
+    slam.step(reading)
+full, compressed = slam.filter, CompressedEKF(deepcopy(slam.filter))
+
+
+def predict_and_update(filter, pose, reading):
+    """One prediction and update of either filter."""
+    Q, seen = Q_arc(pose, reading.odometry, wide.robot), reading.observations
+    filter.predict(compose(pose, reading.odometry), Q)
+    filter.update(seen.ids.tolist(), seen.z, ekf_runs.R(wide))
+
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="07-delay"
+for start in range(85, 169, 21):  # the second lap, a quarter at a time
+    quarter = readings[start : start + 21]
+    around = sorted({i for reading in quarter for i in reading.observations.ids.tolist()})
+    compressed.focus(around)
+    for reading in quarter:
+        predict_and_update(full, full.pose, reading)
+        predict_and_update(compressed, compressed.local.pose, reading)
+    print(f"{len(quarter)} steps with {len(around)} of {len(full.ids)} landmarks")
+compressed.settle()
+off = max(abs(full.x - compressed.whole.x).max(), abs(full.P - compressed.whole.P).max())
+print(f"largest difference of any number in x and P: {off:.9f}")
+
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="07-delay"
+# The delay costs no accuracy: both filters have the same result. The **compressed EKF** (CEKF) drops no
+# correlation. It only postpones the update, and updates the whole map once per region instead of once
+# per step. (The exercise has a simpler task: how are the other landmarks corrected if only the *result*
+# in the region is known?)
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=3
+# ## Submaps
+#
+# Another method divides the map into **submaps** (local maps), and begins a new one at intervals. Each
+# submap starts at (0, 0, 0) with an exact pose, so its errors are uncorrelated with those of earlier
+# maps. **Submap joining** starts with a block-diagonal $P$, as in our example. Two submaps share the
+# pose where one ends and the next begins. They also share the landmarks that were measured in both
+# submaps; the two estimates of such a landmark must agree.
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+trip = LandmarkRun(LAP, np.random.default_rng(7))
+readings, one, joined = list(trip), EkfSlam(trip.robot, trip.sensor), JoinedMap()
+for start in range(0, len(readings), 23):
+    local = EkfSlam(trip.robot, trip.sensor)
+    for reading in readings[start : start + 23]:
+        one.step(reading)
+        local.step(reading)
+    joined.join(local.filter)
+    print(f"{len(local.filter.ids)} landmarks in this submap, {len(joined.ids)} in the whole")
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+apart = one.filter.landmarks() - joined.landmarks()[[joined.ids.index(i) for i in one.filter.ids]]
+apart = 100 * np.sqrt(np.mean(np.sum(apart**2, axis=1)))
+sigma_map = 100 * np.sqrt(np.mean(np.trace(one.filter.blocks()[2], axis1=1, axis2=2)))
+print(f"rms difference from one large filter {apart:.1f} cm; its own σ (√trace) {sigma_map:.1f} cm")
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# The results differ slightly, because the Jacobians are evaluated at other estimates. Here the
+# difference is {= 100 * apart / sigma_map:.0f =} % of the large filter's σ. With submaps, the time of
+# an update grows with the squared size of a *small* map. Joining takes time proportional to $N^2$, but
+# only once for each submap.
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=4
+# ## Conditional independence and sparse information
+#
+# Suppose that the state contains *all* poses. Then no two landmarks are directly linked: each
+# measurement links one pose with one landmark. The information matrix $\Lambda = P^{-1}$ shows this:
+#
+# $$\Lambda_{ij} = 0 \quad\Leftrightarrow\quad i \text{ and } j \text{ are independent, given all other
+# variables.} \tag{07.15}$$
+#
+# This is **conditional independence** of Gaussian variables. The **marginal** distribution of the
+# landmarks and the last pose results from integrating over the other poses. EKF-SLAM computes this
+# marginal at every step. Here is a corridor with three poses and two landmarks:
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+links = [(0, 1), (1, 2), (0, 3), (1, 3), (1, 4), (2, 4)]  # x₀ x₁ x₂ p₁ p₂: odometry, measurements
+Lambda = np.diag([100.0, 0, 0, 0, 0])  # the start, σ = 0.1 m
+for i, j in links:
+    row = np.eye(5)[j] - np.eye(5)[i]  # the Jacobian of x_j − x_i
+    Lambda += 100 * np.outer(row, row)  # also with σ = 0.1 m
+P_all = np.linalg.inv(Lambda)
+print(Lambda.astype(int))
+print(
+    f"zeros of P: {np.sum(np.isclose(P_all, 0))}, correlation of p₁ and p₂: {correlation(P_all)[3, 4]:.2f}"
+)
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# **Your turn.** Marginalise out the first two poses: compute the information matrix of $x_2$, $p_1$ and
+# $p_2$ alone. (In which of the two matrices, $P$ or $\Lambda$, may rows and columns simply be deleted?)
+
+# %% slideshow={"slide_type": "fragment"} tags=["your-turn"]
+Lambda_marginal = ...  # (3, 3), from P_all
+schur = Lambda[2:, :2] @ np.linalg.inv(Lambda[:2, :2]) @ Lambda[:2, 2:]
+compare(Lambda_marginal, Lambda[2:, 2:] - schur)
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# <details><summary>Answer</summary>
+#
+# ```python
+# Lambda_marginal = np.linalg.inv(P_all[2:, 2:])
+# schur = Lambda[2:, :2] @ np.linalg.inv(Lambda[:2, :2]) @ Lambda[:2, 2:]
+# ```
+#
+# Rows and columns may simply be deleted in $P$. For $\Lambda$ we need a Schur complement, and `compare`
+# checks the result with it. No entry of the marginal $\Lambda$ is zero.
+#
+# </details>
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# $P$ has no zeros. $\Lambda$ has a zero for every pair that neither odometry nor a measurement linked:
+# **sparse information** (a sparse information matrix). Marginalising out the poses, as EKF-SLAM does,
+# fills $\Lambda$ again. Several methods use the sparse matrix. Graph SLAM (lesson 15) keeps all poses
+# and solves with the sparse $\Lambda$, without computing the dense $P$; sparse extended information
+# filters approximate $\Lambda$ by a sparse matrix. And given the *whole* trajectory, the landmarks are
+# conditionally independent, as in lesson 05's mapping: FastSLAM (lesson 11) samples trajectories and
+# needs only $N$ small filters for each.
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
+# ## Observability and the EKF's inconsistency
+#
+# Suppose that we keep all correlations. Does the filter stay consistent? It evaluates its Jacobians at
+# its estimates, and these change. So we ask which components of the first state all measurements of a
+# run *together* determine. The **observability** matrix transforms each $H_k$ back to the start by the
+# motions before it:
+#
+# $$O = \begin{bmatrix} H_1 A_1 \\ H_2 A_2 A_1 \\ \vdots \\ H_k A_k \cdots A_1 \end{bmatrix}
+# \tag{07.16}$$
+#
+# With three landmarks the state has nine numbers. If robot and landmarks are shifted together along
+# x or y, or rotated together, every measurement stays the same: the *gauge freedom* of lesson 06. These
+# three directions are unobservable, so the rank of $O$ must be 6.
+
+# %% slideshow={"slide_type": "subslide"}
+ask(
+    "07-rank",
+    "**What is the rank of $O$, computed from the Jacobians that an ordinary EKF uses on such a run?**",
+    {
+        "6, as it must be": "it would be if all Jacobians were evaluated at one and the same state.",
+        "7": "this is one direction too many: the filter gains spurious information about the "
+        "rotation of the whole scene.",
+        "9": "even all measurements together never determine a shift of the whole scene.",
+    },
+    right="7",
+)
+
+# %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="07-rank"
+for name, first_estimates in (("standard", False), ("first estimates", True)):
+    stack, state = observability.observability_matrix(first_estimates)
+    gained = np.linalg.norm(stack @ observability.rigid_scene_motions(state), axis=0) + 0
+    text = ", ".join(
+        f"{way} {size:.6f}" for way, size in zip(("x", "y", "rotation"), gained, strict=True)
+    )
+    print(f"{name}: rank {np.linalg.matrix_rank(stack)} of {len(state)}; lengths of O G: {text}")
+
+
+# %% slideshow={"slide_type": "subslide"} answers="07-rank" tags=["folded"]
+def singular_values(noise, first_estimates):
+    """Singular values of (07.16): how well each of nine directions is determined."""
+    stack, _ = observability.observability_matrix(first_estimates, noise)
+    values, rank = np.linalg.svd(stack)[1], np.linalg.matrix_rank(stack)
+    title = f"rank {rank}"
+    fig, ax = views.chart("direction", "singular value of O", title, size=(8, 4))
+    colours = [views.COLOURS["corrected"]] * 6 + [views.COLOURS["naive"]] * 3
+    ax.bar(np.arange(1, 10), np.maximum(values, 1e-17), color=colours, bottom=1e-18)
+    ax.set(yscale="log", ylim=(1e-17, 1e3), xticks=range(1, 10))
+    return fig
+
+
+views.explore(
+    singular_values,
+    lambda noise, first_estimates: (
+        f"Singular values for {noise:.1f} times the usual noise, Jacobians at "
+        f"{'first' if first_estimates else 'current'} estimates: six bars are high; of the three "
+        f"that must be zero, {'none' if first_estimates or not noise else 'one'} is large."
+    ),
+    noise=(0.0, 3.0, 1.0),
+    first_estimates=False,
+)
+
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="07-rank"
+# All three red singular values should be zero, but one of them is not. (The other two are rounding
+# errors.) The rank is 7: the filter gains spurious information about the *rotation* of the whole scene,
+# which was never measured. The filter evaluates the Jacobians of one landmark at a different estimate
+# each time, and their unobservable directions do not agree (derived under *Deeper*). Without noise, the
+# rank is correct.
+#
+# **First-estimates Jacobians** (G. Huang, A. Mourikis and S. Roumeliotis) evaluate every $H$ at the
+# first estimate of the landmark, and $A$ between predicted poses. This linearisation point is a little
+# less accurate, but it is the same every time. Tick the box: the rank is now 6.
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# **Your turn.** `O_standard` is (07.16) for the standard EKF, and `G` has the three unobservable
+# directions as columns: x, y, rotation. Compute how far $O$ maps each of them away from zero.
+
+# %% slideshow={"slide_type": "fragment"} tags=["your-turn"]
+O_standard, state = observability.observability_matrix(False)
+G = observability.rigid_scene_motions(state)
+lengths = ...  # the length of each column of O G, three numbers
+compare(lengths, np.sqrt(np.diag(G.T @ O_standard.T @ O_standard @ G).clip(0)))
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# <details><summary>Answer</summary>
+#
+# ```python
+# O_standard, state = observability.observability_matrix(False)
+# G = observability.rigid_scene_motions(state)
+# lengths = np.linalg.norm(O_standard @ G, axis=0)
+# ```
+#
+# Only the length for the rotation is not zero.
+#
+# </details>
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=4
+# ## Consistency in simulation
+#
+# Three filters processed the same readings: *ideal*, with all Jacobians at the truth, which is known
+# only in a simulation; *first estimates*; and *standard*. The runs, of seven laps each, were made
+# beforehand, with good and with noisy odometry (`python -m course.studies.consistency`).
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+heads = "odometry", "filter", "NEES, mean", "median run", "steps above", "below band", "map, rms"
+lines = [f"| {' | '.join(heads)} |", "|---" * len(heads) + "|"]
+for odometry, table in (("good", "consistency"), ("noisy", "consistency-noisy")):
+    study = stored(table)
+    for name, row in study["filters"].items():
+        lines.append(
+            f"| {odometry} | {name} | {row['nees']:.2f} ± {row['nees_standard_error']:.2f} "
+            f"| {row['nees_median_run']:.2f} | {100 * row['steps_above_band']:.0f} % "
+            f"| {100 * row['steps_below_band']:.0f} % | {100 * row['landmark_rmse_m']:.1f} cm |"
+        )
+noisy, good = study["filters"], stored("consistency")["filters"]
+Markdown("\n".join(lines))
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# (The number after ± is the standard error of the mean.) For a consistent filter, the average over
+# {= study["seeds"][1] + 1 =} runs at a single step lies between {= study["band_95"][0]:.2f =} and
+# {= study["band_95"][1]:.2f =} with a probability of 95 %. With good odometry the three filters are close
+# together; the ideal one is even a little conservative. With noisy odometry the standard filter has a
+# mean NEES of {= noisy["standard"]["nees"]:.1f =} (median run
+# {= noisy["standard"]["nees_median_run"]:.1f =}) and the largest map errors. With first estimates the map
+# is nearly as accurate as the ideal filter's, but NEES is above the band at more steps. Even the ideal
+# filter leaves the band at some steps, because it has a linearisation error as well.
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=7
+# ## EKF-SLAM on a real log: Victoria Park
+#
+# A car with a laser scanner drove through Victoria Park in Sydney (E. Nebot and J. Guivant). A text
+# file among the GTSAM examples contains its odometry and measured trees, with known data association
+# and covariances, but no ground truth. Our reference is the *batch optimum*: least squares over all
+# poses and trees together, relinearised until it converges (lesson 15). From the map of either filter,
+# least squares converges to the same optimum. This optimum has errors as well, but a filter without
+# linearisation error would end *at* it, because both use the same data and covariances. The cell below
+# processes the first 600 lines of the file; the whole log was processed beforehand.
+
+# %% slideshow={"slide_type": "fragment"}
+park = victoria_park.stored()
+poses, measurements, trees = park["counts"].astype(int)
+try:
+    log = gtsam_text.load(sources.recording("victoria-park"))[:600]
+    live = victoria_park.run(victoria_park.EkfSlam(), log)
+    here = live.poses[:: victoria_park.EVERY]
+    differ = np.hypot(*(here - park["standard"][: len(here)])[:, :2].T).max()
+    print(
+        f"{len(live.poses)} poses, {len(live.filter.ids)} trees; from the stored run: {differ:.2f} m"
+    )
+except sources.SourceError as missing:
+    print(f"{missing}.\nThe stored run is shown below.")
+
+# %% slideshow={"slide_type": "subslide"} tags=["folded"]
+fig, axes = views.panels(victoria_park.FILTERS, size=(9.2, 5))
+for ax, name in zip(axes, victoria_park.FILTERS, strict=True):
+    ellipses = Ellipses("landmark", park[f"{name} trees"], park[f"{name} trees P"])
+    layers = {
+        "batch optimum: trajectory": Poses("truth", park["batch"]),
+        "batch optimum: trees": Points("truth", park["batch trees"]),
+        "EKF-SLAM: trees, 95 %": ellipses,
+    }
+    for label, layer in layers.items():
+        cross = {"marker": "+", "mew": 1, "markersize": 5} if label.endswith("m: trees") else {}
+        views.draw(ax, layer, label=label, **cross)
+views.legend_below(fig)
+difference = {name: park[f"{name} trees"] - park["batch trees"] for name in victoria_park.FILTERS}
+tree_off = {name: np.hypot(*each.T) for name, each in difference.items()}
+inside = {
+    name: np.sum(nees(each, park[f"{name} trees P"]) < 5.99) for name, each in difference.items()
+}
+as_complex = [(p - p.mean(0)) @ [1, 1j] for p in (park["batch trees"], park["standard trees"])]
+rotation = np.degrees(np.angle(np.vdot(*as_complex)))  # of the best fit to the batch optimum
+views.show(
+    fig,
+    f"On the left, the trees of the standard filter are up to {tree_off['standard'].max():.0f} m "
+    "from those of the batch optimum, with tiny ellipses; on the right, with first estimates, "
+    f"{inside['first estimates']} of {trees} ellipses contain them.",
+)
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# On the left the map of the standard EKF is *rotated* relative to the batch optimum, by
+# {= abs(rotation):.0f =}° clockwise. Its 95 % ellipses are far too small: only {= inside["standard"] =}
+# of {= trees =} contain the batch position of their tree, which is
+# {= np.median(tree_off["standard"]):.0f =} m away (median). On the right, with first-estimates Jacobians,
+# the batch position is {= np.median(tree_off["first estimates"]):.2f =} m away (median), and
+# {= inside["first estimates"] =} ellipses contain it. The noise covariances of the file are hardly the
+# cause: with them, χ² of the batch optimum is {= np.divide(*park["chi2"]):.2f =} per degree of freedom.
+
+# %% slideshow={"slide_type": "subslide"} tags=["folded", "nbval-check-output"]
+checks = park["checkpoints"]  # pose, σ of the batch
+# distance, σ, NEES by own P and by the batch's P
+standard, first = (park[f"{name} checkpoints"].T for name in victoria_park.FILTERS)
+worst = standard[0].argmax()
+fig, ax = views.chart("pose of the log", "distance from the batch optimum, σ [m]", size=(8.5, 4.2))
+for name, values, colour in (
+    ("standard", standard, "naive"),
+    ("first estimates", first, "corrected"),
+):
+    ax.plot(checks[:, 0], values[0], color=views.COLOURS[colour], lw=2, label=f"{name}: distance")
+    ax.plot(
+        checks[:, 0],
+        values[1],
+        color=views.COLOURS[colour],
+        ls=":",
+        lw=2,
+        label=f"{name}: σ (√trace)",
+    )
+ax.set(yscale="log", ylim=(0.01, 100))
+views.legend(ax, ncols=2, loc="upper left")
+views.show(
+    fig,
+    f"The standard filter is up to {standard[0].max():.0f} m from the batch optimum, and at "
+    f"{np.sum(standard[0] > standard[1])} of {len(checks)} poses this distance exceeds its σ; "
+    "with first estimates the distance stays below σ.",
+)
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# At {= len(checks) =} poses along the log we compared each filter with the batch optimum of the data
+# *up to that pose*. The largest distance of the standard EKF is {= standard[0].max():.0f =} m, and its
+# σ is {= standard[1][worst]:.1f =} m there. At the last pose the distance is {= standard[0][-1]:.1f =}
+# m and σ is {= standard[1][-1]:.2f =} m (σ of the batch optimum is {= checks[-1, 1]:.2f =} m). Now we
+# compute NEES with the batch optimum in place of the truth. Its median is
+# {= np.median(standard[2]):.0f =} with the filter's own $P$ and {= np.median(standard[3]):.0f =} with
+# the batch covariance; a filter without linearisation error would have 0, not 3. With first estimates
+# the median is {= np.median(first[2]):.2f =}.
+#
+# The two filters differ only in the linearisation points of their Jacobians. With first estimates the
+# filter stays close to the batch optimum. The standard filter is **inconsistent**: its distance from
+# this optimum alone is about {= np.sqrt(np.median(standard[2]) / 3):.0f =} times as large as the whole
+# error that its $P$ predicts.
+
+# %% slideshow={"slide_type": "subslide"} tags=["folded", "nbval-check-output"]
+heads = "method", "last pose off [m]", "in σ", "median NEES, own P", "by batch P", "CPU [s]"
+lines = [f"| {' | '.join(heads)} |", "|---" * len(heads) + "|"]
+for name in victoria_park.METHODS:
+    off, sigma, _, _ = park[f"{name} checkpoints"][-1]
+    own, by_batch = np.median(park[f"{name} checkpoints"][:, 2:], axis=0)
+    lines.append(
+        f"| {name} | {off:.2f} | {off / sigma:.1f} | {own:.3g} | {by_batch:.3g} "
+        f"| {park[f'{name} seconds']:.1f} |"
+    )
+Markdown("\n".join(lines))
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# Five methods of the course processed the same measurements; the table compares their poses with the
+# batch optimum. Only the filter with first estimates is consistent. The standard EKF ends
+# {= standard[0][-1] / standard[1][-1]:.0f =} σ away, and the compressed EKF has exactly the same errors,
+# because it computes the same filter. Joining submaps of {= victoria_park.SUBMAP =} poses ends
+# {= park["submaps checkpoints"][-1, 0] / park["submaps checkpoints"][-1, 1]:.0f =} σ away: a join is
+# linearised at the pose that is known then, and never again. FastSLAM with
+# {= victoria_park.PARTICLES =} particles fails: the odometry alone moves its particles, resampling
+# leaves copies of few of them, and their spread (σ = {= 100 * park["FastSLAM checkpoints"][-1, 1]:.1f =}
+# cm) is far smaller than their error of {= park["FastSLAM checkpoints"][-1, 0]:.0f =} m.
+
+# %% [markdown] slideshow={"slide_type": "slide"}
+# ## Literature
+#
+# - **One state, all correlations:** R. Smith, M. Self and P. Cheeseman, "Estimating Uncertain Spatial
+#   Relationships in Robotics", in *Autonomous Robot Vehicles*, Springer, 1990.
+# - **The limit:** M. W. M. G. Dissanayake, P. Newman, S. Clark, H. F. Durrant-Whyte and M. Csorba, "A
+#   Solution to the Simultaneous Localization and Map Building (SLAM) Problem", *IEEE Transactions on
+#   Robotics and Automation* 17(3), 2001.
+# - **Compressed filter, Victoria Park:** J. E. Guivant and E. M. Nebot, in the same issue.
+# - **Inconsistency:** S. J. Julier and J. K. Uhlmann, "A Counter Example to the Theory of
+#   Simultaneous Localization and Map Building", *ICRA*, 2001. **First estimates:** G. P. Huang, A. I.
+#   Mourikis and S. I. Roumeliotis, *International Journal of Robotics Research* 29(5), 2010.
+# - **Read next:** H. Durrant-Whyte and T. Bailey, "Simultaneous Localization and Mapping: Part I",
+#   *IEEE Robotics & Automation Magazine* 13(2), 2006.
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=1
+# ## What you can do now
+#
+# | what is dropped or postponed | what happens |
+# |---|---|
+# | $P_{\mathrm ri}$ and $P_{ij}$ | the same information is counted many times: NEES far above its band |
+# | the update of far landmarks, until the robot leaves | the same result: compressed EKF |
+# | correlations between submaps (there are none) | a difference of a fraction of σ |
+# | $P$ itself: all poses and sparse information instead | no information is lost: graph SLAM, lesson 15 |
+# | correlations given the trajectory (conditional independence) | no information is lost for each trajectory: FastSLAM, lesson 11 |
+# | the change of the Jacobians (first estimates) | NEES close to that of the ideal filter |
+#
+# **What comes next:** here the data association was known. [Lesson 08](08_landmarks_from_scans.ipynb)
+# extracts landmarks from scans and associates them with the map.
+#
+# **Exercise:**
+# [07 · Correlations, consistency and cost of EKF-SLAM](../exercises/ex07_correlations.ipynb). You update
+# landmarks that were not measured, fuse correlated estimates, and estimate the size of a common error.
+#
+# The sections below this one are optional.
+
+# %% [markdown] slideshow={"slide_type": "slide"}
+# ## Deeper: no determinant of the map grows
+#
+# Let $M$ be some rows and columns of $P_{\mathrm{map}}$ before an update, and $M - B B^{\mathsf T}$
+# after it, as in (07.11). The difference is a covariance, so $B$ can be written as $B = M^{1/2} C$, and
+#
+# $$\det(M - B B^{\mathsf T}) = \det M \cdot \det(I - C C^{\mathsf T}), \tag{07.17}$$
+#
+# where the eigenvalues of $I - C C^{\mathsf T}$ lie between 0 and 1: they are at least 0 since the
+# difference is a covariance, and at most 1 since $C C^{\mathsf T}$ is positive semidefinite. So their
+# product also lies between 0 and 1. A prediction does not change $M$, by (07.5). For the vectors of
+# (07.10) the same holds with $D M D^{\mathsf T}$ and $D B$. We check this at every step of the lap from
+# the tenth on, for every landmark and every pair:
 
 # %% slideshow={"slide_type": "fragment"} tags=["folded", "nbval-check-output"] answers="07-grow"
 largest, det = (
@@ -626,554 +1296,98 @@ for before, after in pairwise(P_at[9:]):
 for name, ratios in largest.items():
     print(f"{name}: largest det after / det before = {max(ratios):.6f}")
 
-# %% [markdown] slideshow={"slide_type": "fragment"} answers="07-grow"
-# Only the robot's is above 1. This is a law of the filter, whatever its Jacobians are. The filter
-# that forgot its cross blocks obeys it as well, landmark by landmark, and was wrong all the time:
-# **certainty that never falls is no proof of being right.**
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# Only the robot's ratio is above 1. So determinant and volume of a covariance in the map never grow.
+# The thesis concludes that "the map's certainty does not fall". This is always true for the covariance
+# that the filter reports, so it does not prove that the map is correct.
 
-# %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* The thesis concludes that "the map's certainty does not fall". Ask whether that
-# is good news, and for whom. For the filter's claim it always holds.
-
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=6
-# ## In the limit
+# %% [markdown] slideshow={"slide_type": "slide"}
+# ## Deeper: the unobservable directions, derived
 #
-# Certainty never falls; does it rise without end? Let a robot drive for ever. It is not sure of its
-# first place: ±20 cm in x and in y. It has a perfect compass, so it always knows its heading.
-
-# %% slideshow={"slide_type": "fragment"}
-ask(
-    "07-limit",
-    "**To how many centimetres, in x and in y, does it know a landmark's place in the end?**",
-    right=20,
-    tolerance=2,
-    unit="cm",
-    reason="no sighting ever tells where the start was, and every landmark depends on it.",
-    wrong={
-        0: "the vectors between the landmarks become exact; but where is the whole?",
-        10: "averaging helps against noise that is drawn anew; the start's error is drawn once.",
-        28: "that is both axes together; the question is about each.",
-    },
-)
-
-
-# %% slideshow={"slide_type": "subslide"} answers="07-limit" tags=["folded"]
-exact_turns = cache(lambda start_sigma: shared_errors.long_run(0.0, start_sigma))
-_, own, vector, compass_map = exact_turns(0.2)
-
-
-def for_ever(turn_noise, start_sigma):
-    """σ of a landmark and of a vector over many rounds, with a compass and with noisy turns."""
-    found = {"compass": exact_turns(start_sigma)}
-    if turn_noise:
-        found["no compass"] = shared_errors.long_run(turn_noise, start_sigma)
-    fig, ax = views.chart("rounds", "σ of x and y [m]", size=(8, 4))
-    for (name, (rounds, *both, _)), line in zip(found.items(), ("-", "--"), strict=False):
-        for what, sigma in zip(("landmark", "vector"), both, strict=True):
-            colour = views.COLOURS["landmark" if what == "landmark" else "corrected"]
-            ax.plot(rounds, sigma, line, color=colour, label=f"{what}, {name}")
-    ax.axhline(start_sigma, color=views.COLOURS["limit"], linestyle="dashdot", linewidth=1)
-    ax.set_ylim(0, 2.4 * max(start_sigma, 0.2))
-    views.legend(ax, ncols=2, loc="upper center")
-    return fig
-
-
-views.explore(
-    for_ever,
-    lambda turn_noise, start_sigma: (
-        f"The start is known to {start_sigma:.2f} m. With a compass a landmark comes down to that, and "
-        f"its vector to the next goes on falling; turns noisy by {turn_noise:.3f} rad/s leave more."
-    ),
-    turn_noise=(0.0, 0.03, 0.012),
-    start_sigma=(0.0, 0.4, 0.2),
-)
-
-# %% [markdown] slideshow={"slide_type": "fragment"} answers="07-limit"
-# With a compass the landmark comes down to the grey line, the doubt about the start: after twelve
-# rounds it is known to {= own[-1]:.3f =} m. The vector to the next landmark, at
-# {= vector[-1]:.3f =} m, goes on falling.
-
-# %% [markdown] slideshow={"slide_type": "subslide"}
-# ### One error for all
+# We shift or rotate the pose and one landmark together by a small amount. To first order the state
+# changes along three directions, the columns of $G$ (the rotation is about the origin, as in (07.8)):
 #
-# In the limit every landmark has one and the same error, the start's. The map becomes *fully
-# correlated*, and exact in itself:
+# $$G = \begin{bmatrix} 1 & 0 & -y \\ 0 & 1 & x \\ 0 & 0 & 1 \\ 1 & 0 & -p_y \\ 0 & 1 & p_x \end{bmatrix}
+# \tag{07.18}$$
 #
-# $$P_{ij} \to P_{\text{start}} \text{ for all } i, j, \qquad \Delta P_{ij} \to 0. \tag{07.12}$$
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="07-limit"
-*_, turned_map = shared_errors.long_run(0.012, 0.2)
-for name, mak in (("compass", compass_map), ("no compass", turned_map)):
-    shifts, turn = shared_errors.rigid_share(mak.P[3:, 3:], mak.landmarks())
-    rho = correlation(mak.P)[9, 11]  # x of one landmark and x of the next
-    print(f"{name}: correlation of two neighbours {rho:.3f}; of the map's variance")
-    print(
-        f"  {100 * shifts:.1f} % displacement, {100 * turn:.1f} % turn, {100 * (1 - shifts - turn):.1f} % left"
-    )
-
-# %% [markdown] slideshow={"slide_type": "fragment"} answers="07-limit"
-# Without a compass one more thing stays unknown: **how the map is turned against the start**. The
-# heading at the start is exact here, because we said so. But the robot had turned, with noise,
-# before it placed most of its landmarks, and no later sighting can tell that turn from a turn of
-# the whole map. The shape becomes well known all the same: hardly anything is left but displacement
-# and turn.
-
-# %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* The classic proof is about a linear system, in which headings are known. Ask
-# which parts of a map can become exact without a compass: distances and angles.
-
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=4
-# ## The price
-#
-# A map of $N$ landmarks has a covariance of
-#
-# $$(3 + 2N)^2 \text{ numbers,} \tag{07.13}$$
-#
-# and each sighting changes all of them.
-
-# %% slideshow={"slide_type": "fragment"}
-ask(
-    "07-price",
-    "A large map grows to twice as many landmarks. **How many times as many numbers does one sighting "
-    "have to change?**",
-    right=4,
-    tolerance=0.4,
-    reason="P has twice as many rows, each of them twice as long, and every number changes.",
-    wrong={
-        2: "that is right for the state x, but P has a row and a column for each of its entries.",
-        8: "the cube would be the cost of inverting P; what is inverted is S, whose size is that of "
-        "the sighting.",
-        1: "that would be right if landmarks were independent, as in lesson 05.",
-    },
-)
-
-
-# %% slideshow={"slide_type": "subslide"} answers="07-price" tags=["folded"]
-def price(N, sightings=25):
-    """Bytes of P, and seconds of one step with four landmarks in sight (the best of some)."""
-    rng, R = np.random.default_rng(N), np.diag([0.1, 0.03]) ** 2
-    mak = MAK([0.3, -0.2, 0.4], np.diag([0.02, 0.03, 0.01]), N)
-    mak.add(range(N), np.column_stack([rng.uniform(1, 20, N), rng.uniform(-3, 3, N)]), R)
-    took = []
-    for _ in range(sightings):
-        began = perf_counter()
-        mak.predict(mak.pose, 1e-6 * np.eye(3))
-        mak.update(range(4), models.h(mak.pose, mak.landmarks()[:4]), R)
-        took.append(perf_counter() - began)
-    return mak.P.nbytes, min(took)
-
-
-N_tried = np.array([50, 100, 200, 400, 800, 1600])
-memory, seconds = np.array([price(N) for N in N_tried]).T
-slope, _ = np.polyfit(np.log(N_tried[-3:]), np.log(seconds[-3:]), 1)
-assert (memory == 8 * (3 + 2 * N_tried) ** 2).all()  # (07.13), eight bytes a number
-fig, ax = views.growth(
-    N_tried,
-    {"time [ms]": 1e3 * seconds, "memory [MB]": memory / 1e6},
-    {"grows as N²": 1e3 * seconds[-1] * (N_tried / N_tried[-1]) ** 2},
-    "landmarks N",
-    "ms, MB",
-    size=(8, 4),
-)
-views.show(fig, f"Memory runs beside the line N²; time grows as N to the {slope:.1f} at the end.")
-
-# %% [markdown] slideshow={"slide_type": "fragment"} answers="07-price"
-# On these axes a power is a straight line, and its slope is the exponent. Memory follows (07.13).
-# Time is flat at first, where calling functions costs more than arithmetic; from 400 landmarks on
-# it grows as $N^{ {= slope:.1f =} }$ on the machine that ran this. As long as every number of $P$
-# changes at every sighting, nothing better than $N^2$ can be had. Every way out has to change fewer
-# numbers.
-
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=4
-# ## A way out: settle later
-#
-# The robot works in one corner. Must the far landmarks hear of every sighting *now*? J. Guivant and
-# E. Nebot let them wait. Call the robot and what is around it the region $a$, the rest $b$. As long
-# as only $a$ is in sight, three small sums over the sightings, $\varphi$, $\psi$ and $\vartheta$, say
-# all that $b$ will have to be told:
-#
-# $$P_{ab} \leftarrow \varphi P_{ab}, \qquad P_{bb} \leftarrow P_{bb} - P_{ba}\, \psi\, P_{ab}, \qquad
-# \hat x_b \leftarrow \hat x_b + P_{ba}\, \vartheta. \tag{07.14}$$
-#
-# This is done once, when the robot leaves. What does the delay cost in accuracy?
-
-# %% slideshow={"slide_type": "subslide"}
-wide = LandmarkRun(Loop(landmarks=40, steps=168), np.random.default_rng(7))
-readings, slam = list(wide), MakSlam(wide.robot, wide.sensor)
-for reading in readings[:85]:  # the first round makes the map
-    slam.step(reading)
-full, compressed = slam.filter, CompressedMAK(deepcopy(slam.filter))
-
-
-def move_and_see(filter, pose, reading):
-    """The same two lines for both filters."""
-    Q, seen = Q_arc(pose, reading.odometry, wide.robot), reading.observations
-    filter.predict(compose(pose, reading.odometry), Q)
-    filter.update(seen.ids.tolist(), seen.z, two_halves.R(wide))
-
+# Does a measurement change? To first order its change is $H G$:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-for start in range(85, 169, 21):  # the second round, a quarter at a time
-    quarter = readings[start : start + 21]
-    around = sorted({i for reading in quarter for i in reading.observations.ids.tolist()})
-    compressed.focus(around)
-    for reading in quarter:
-        move_and_see(full, full.pose, reading)
-        move_and_see(compressed, compressed.local.pose, reading)
-    print(f"{len(quarter)} steps with {len(around)} of {len(full.ids)} landmarks")
-compressed.settle()
-off = max(abs(full.x - compressed.whole.x).max(), abs(full.P - compressed.whole.P).max())
-print(f"largest difference of any number in x and P: {off:.9f}")
+x, y, theta, p_x, p_y, a, b, e_x, e_y = sp.symbols("x y theta p_x p_y a b e_x e_y", real=True)
+h = sp.Matrix([sp.sqrt((p_x - x) ** 2 + (p_y - y) ** 2), sp.atan2(p_y - y, p_x - x) - theta])
+H = h.jacobian([x, y, theta, p_x, p_y])
+directions = sp.Matrix([[1, 0, -y], [0, 1, x], [0, 0, 1], [1, 0, -p_y], [0, 1, p_x]])
+sp.simplify(H * directions)
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# It costs nothing. The *compressed* EKF drops no correlation, it only waits, and pays for the whole
-# map once per region instead of once per step. (The exercise asks for less: what can the others be
-# told if only the *outcome* of the work in the corner is known?)
-
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=3
-# ## A way out: small maps, joined
-#
-# Or begin a new map every now and then. Each starts at (0, 0, 0), sure of itself, so its errors have
-# nothing in common with those of the maps before. Two of them are joined as our example began: with
-# a block-diagonal $P$. What joins them is the pose where one ends and the next begins, and the
-# landmarks that both have seen, which must stand at one place.
+# The measurement does not change in any of the three directions. Next, the robot moves by $(a, b)$. Its
+# Jacobian $A$ should map the directions before the motion to those after it, $A G = G'$:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-trip = LandmarkRun(LAP, np.random.default_rng(7))
-readings, one, joined = list(trip), MakSlam(trip.robot, trip.sensor), JoinedMap()
-for start in range(0, len(readings), 23):
-    local = MakSlam(trip.robot, trip.sensor)
-    for reading in readings[start : start + 23]:
-        one.step(reading)
-        local.step(reading)
-    joined.join(local.filter)
-    print(f"{len(local.filter.ids)} landmarks in this map, {len(joined.ids)} in the whole")
+A = sp.diag(sp.Matrix([[1, 0, -b], [0, 1, a], [0, 0, 1]]), sp.eye(2))
+directions_after = directions.subs({x: x + a, y: y + b}, simultaneous=True)
+sp.simplify(A * directions - directions_after)
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# So each block of rows of (07.16) gives $H_k A_k \cdots A_1 G = H_k G_k = 0$, *if* all Jacobians are
+# evaluated at one consistent set of points. Then the rank of $O$ is at most $n - 3$; in the run above
+# it was exactly 6 of 9. These three directions are the gauge freedom. The EKF, however, evaluates $H$
+# at a later estimate of the landmark, which differs by $(e_x, e_y)$ from the first estimate:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-apart = one.filter.landmarks() - joined.landmarks()[[joined.ids.index(i) for i in one.filter.ids]]
-apart = 100 * np.sqrt(np.mean(np.sum(apart**2, axis=1)))
-claimed = 100 * np.sqrt(np.mean(np.trace(one.filter.blocks()[2], axis1=1, axis2=2)))
-print(f"from one large filter {apart:.1f} cm apart (rms), which itself claims ±{claimed:.1f} cm")
+H_later = H.subs({p_x: p_x + e_x, p_y: p_y + e_y}, simultaneous=True)
+product = H_later * directions
+at = {x: 0, y: 0, theta: 0, p_x: 3, p_y: 0}
+print("translations:", sp.simplify(product[:, :2]).is_zero_matrix)
+sp.simplify(product[:, 2].subs(at)), sp.simplify(product[:, 2].subs(at | {e_x: 0, e_y: 0}))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The result is not the same to the last digit, because the Jacobians are taken at other estimates.
-# Here the difference is {= 100 * apart / claimed:.0f =} % of what the large filter claims to know.
-# A sighting then costs a time that grows with the square of a *small* map; joining costs $N^2$, but
-# only once for each map.
-
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=3
-# ## A way out: a relative map
-#
-# Or keep the vectors between neighbours, (07.10), in place of the landmarks. What two landmarks share
-# drops out of their difference, so the vectors should have less in common. $D$ takes the differences:
-#
-# $$P_{\text{vectors}} = D\, P_{\text{map}}\, D^{\mathsf T} \tag{07.15}$$
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-P_end = P_at[-1][3:, 3:]
-D = np.kron(np.eye(15, 16, 1) - np.eye(15, 16), np.eye(2))  # row i: p_{i+1} − p_i
-for name, covariance in (("landmarks", P_end), ("vectors", D @ P_end @ D.T)):
-    rho = abs(correlation(covariance))
-    far = abs(np.subtract.outer(*2 * [np.arange(len(rho)) // 2])) > 1
-    print(f"{name}: mean |ρ| of those that are no neighbours: {rho[far].mean():.2f}")
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# They share less, but not nothing: without a compass all vectors share the turn of the map.
-# Distances and angles do not even share that. Dropping what is left should do less harm than
-# dropping $P_{ij}$, because it is less. But it *is* dropped, and the vectors round a closed loop no
-# longer add up to zero unless the program makes them do so.
-
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
-# ## What even the full filter gets wrong
-#
-# Suppose that we keep everything. Is the filter honest for ever? It takes its Jacobians at its
-# estimates, and these change. Let us ask what all sightings of a run *together* say about the first
-# state. Each $H_k$ is brought back to the start by the motions before it:
-#
-# $$O = \begin{bmatrix} H_1 A_1 \\ H_2 A_2 A_1 \\ \vdots \\ H_k A_k \cdots A_1 \end{bmatrix}
-# \tag{07.16}$$
-#
-# With three landmarks the state has nine numbers. If robot and landmarks are shifted together along
-# x or y, or turned together, every sighting stays the same. About these three directions nothing
-# can ever be learned, so the rank of $O$ must be 6.
-
-# %% slideshow={"slide_type": "subslide"}
-ask(
-    "07-rank",
-    "**What is the rank of $O$, computed from the Jacobians that an ordinary EKF uses on such a run?**",
-    {
-        "6, as it must be": "it would be if all Jacobians were taken at one and the same state.",
-        "7": "one direction too many; find out which.",
-        "9": "even all sightings together never see a shift of the whole scene.",
-    },
-    right="7",
-)
-
-
-# %% slideshow={"slide_type": "subslide"} answers="07-rank" tags=["folded"]
-def what_is_learnt(noise, first_estimates):
-    """Singular values of (07.16): how much is learnt of each of nine directions."""
-    stack, _ = observability.stacked_sightings(first_estimates, noise)
-    values, rank = np.linalg.svd(stack)[1], np.linalg.matrix_rank(stack)
-    title = f"rank {rank}"
-    fig, ax = views.chart("direction", "singular value [1]", title, size=(8, 4))
-    colours = [views.COLOURS["corrected"]] * 6 + [views.COLOURS["naive"]] * 3
-    ax.bar(np.arange(1, 10), np.maximum(values, 1e-17), color=colours, bottom=1e-18)
-    ax.set(yscale="log", ylim=(1e-17, 1e3), xticks=range(1, 10))
-    return fig
-
-
-views.explore(
-    what_is_learnt,
-    lambda noise, first_estimates: (
-        f"Singular values for {noise:.1f} times the usual noise, Jacobians at "
-        f"{'first' if first_estimates else 'current'} estimates: six bars are high; of the three that "
-        f"must vanish, {'none' if first_estimates or not noise else 'one'} stands out."
-    ),
-    noise=(0.0, 3.0, 1.0),
-    first_estimates=False,
-)
-
-# %% [markdown] slideshow={"slide_type": "fragment"} answers="07-rank"
-# Of the three red bars, which must vanish, one does not. (What the other two show is rounding.)
-
-# %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="07-rank"
-for name, first_estimates in (("standard", False), ("first estimates", True)):
-    stack, state = observability.stacked_sightings(first_estimates)
-    learnt = np.linalg.norm(stack @ observability.whole_scene(state), axis=0) + 0
-    told = ", ".join(
-        f"{way} {size:.6f}" for way, size in zip(("x", "y", "turn"), learnt, strict=True)
-    )
-    print(f"{name}: rank {np.linalg.matrix_rank(stack)} of {len(state)}; learnt of {told}")
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# ### A turn that nobody measured
-#
-# The rank is 7: the filter believes that it learns how the whole scene is *turned*. It cannot. But it
-# sees the same landmark each time from a slightly different estimate, and takes the difference for
-# news. Move the noise to 0, and the rank is right.
-#
-# **First estimates** (G. Huang, A. Mourikis and S. Roumeliotis) take every Jacobian of a landmark
-# where that landmark was first placed, and $A$ between predicted poses. That point is a little worse,
-# but it is the same every time. Tick the box: rank 6.
-
-# %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Let someone say why a shift is safe: the robot's columns of H for x and y are
-# minus its landmark columns wherever they are taken (lesson 04). A turn needs the landmark's *place*,
-# and this is what changes.
-
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=4
-# ## How much is that?
-#
-# Three filters saw the same readings: *ideal*, with all Jacobians at the truth, which only a
-# simulation knows; *first estimates*; and *standard*. The runs, of seven rounds each, were made
-# beforehand, with good wheels and with noisy ones (`python -m slamlab.studies.consistency`).
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-lines = ["| wheels | filter | NEES | steps above band | heading | landmarks |", "|---" * 6 + "|"]
-for wheels, table in (("good", "consistency"), ("noisy", "consistency-noisy")):
-    study = stored(table)
-    for name, row in study["filters"].items():
-        lines.append(
-            f"| {wheels} | {name} | {row['nees']:.2f} ± {row['nees_standard_error']:.2f} "
-            f"| {100 * row['steps_above_band']:.0f} % | {row['heading_rmse_deg']:.2f}° "
-            f"| {100 * row['landmark_rmse_m']:.1f} cm |"
-        )
-noisy_nees = study["filters"]["standard"]["nees"]
-Markdown("\n".join(lines))
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# At a single step, 95 % of the averages of an honest filter over {= study["seeds"][1] + 1 =} runs
-# lie between {= study["band_95"][0]:.2f =} and {= study["band_95"][1]:.2f =}. With good wheels the
-# three filters are close together, and the standard one is a little worse. With noisy ones the
-# standard filter's NEES is {= noisy_nees:.1f =}, and its heading and its map are the worst: it is
-# surer, *and* farther off. First estimates come close to the ideal in heading and map, but are
-# above the band at about twice as many steps as it. Even the ideal filter leaves the band at some
-# steps, because it, too, puts straight lines in place of curved models (lesson 04).
+# The translations remain unobservable, because $H_{\mathrm p} = -H_{\mathrm r}$ in x and y at every
+# linearisation point. The rotation does not remain unobservable: its column depends on $(e_x, e_y)$,
+# and in this example it is zero only if both are zero. The EKF gains information about the rotation of
+# the whole scene, which was never measured. First-estimates Jacobians set $(e_x, e_y)$ to zero by
+# construction; for the motions, they evaluate $A$ between *predicted* poses, with the same effect.
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
-noisy = Loop(v_sigma=0.05, omega_sigma=0.05)
-sample = [errors_of(seed, noisy) for seed in range(2)]
+noisy_loop = Loop(steps=300, v_sigma=0.05, omega_sigma=0.05)
+sample = [errors_of(seed, noisy_loop) for seed in range(2)]
 for name in ("ideal", "first estimates", "standard"):
-    believed = np.mean([run[name][1][-100:, 2, 2] for run in sample])
-    print(f"{name}: believes its heading to ±{np.degrees(np.sqrt(believed)):.1f}° at the end")
+    variance = np.mean([run[name][1][-100:, 2, 2] for run in sample])
+    print(f"{name}: σ of its heading {np.degrees(np.sqrt(variance)):.1f}° over the last 100 steps")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Two of the noisy runs show the mechanism. From the same readings, the standard filter claims to
-# know its heading better than the ideal one can.
+# Two noisy runs of three and a half laps show the mechanism. From the same readings, the standard filter
+# reports a smaller variance of its heading than the ideal filter: this is the spurious information.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
-# ## Literature
+# ## Deeper: a relative map
 #
-# - **One state, all correlations:** R. Smith, M. Self and P. Cheeseman, "Estimating Uncertain Spatial
-#   Relationships in Robotics", in *Autonomous Robot Vehicles*, Springer, 1990.
-# - **The limit:** M. W. M. G. Dissanayake, P. Newman, S. Clark, H. F. Durrant-Whyte and M. Csorba, "A
-#   Solution to the Simultaneous Localization and Map Building (SLAM) Problem", *IEEE Transactions on
-#   Robotics and Automation* 17(3), 2001.
-# - **Compressed filter:** J. E. Guivant and E. M. Nebot, in the same issue.
-# - **False certainty:** S. J. Julier and J. K. Uhlmann, "A Counter Example to the Theory of
-#   Simultaneous Localization and Map Building", *ICRA*, 2001. **First estimates:** G. P. Huang, A. I.
-#   Mourikis and S. I. Roumeliotis, *International Journal of Robotics Research* 29(5), 2010.
-# - **Read next:** H. Durrant-Whyte and T. Bailey, "Simultaneous Localization and Mapping: Part I",
-#   *IEEE Robotics & Automation Magazine* 13(2), 2006.
+# A further method stores the vectors (07.10) between neighbouring landmarks instead of the landmarks.
+# The common error of two landmarks cancels in their difference, so the vectors should be less
+# correlated. The matrix $D$ computes the differences:
+#
+# $$P_{\text{vectors}} = D\, P_{\text{map}}\, D^{\mathsf T} \tag{07.19}$$
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=1
-# ## What you can do now
-#
-# | what is dropped or put off | what happens |
-# |---|---|
-# | $P_{\mathrm ri}$ and $P_{ij}$ | one witness counts many times: NEES far above its band |
-# | the far landmarks' share, until the robot leaves | nothing: the compressed EKF |
-# | the noise that small maps share (there is none) | next to nothing: joined maps |
-# | the common error (relative maps) | little, if loops are made to add up |
-# | the change of the Jacobians (first estimates) | NEES close to that of the ideal filter |
-#
-# **What comes next:** here every landmark told its name. A wall does not:
-# [lesson 08](08_landmarks_from_scans.ipynb) finds landmarks in scans.
-#
-# **Exercise:** [07 · Correlations](../exercises/ex07_correlations.ipynb). You pass on what was learned
-# out of sight, fuse estimates that share an error, and find out how large a shared error is.
-#
-# What stands below is optional.
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+P_map = P_at[-1][3:, 3:]
+D = np.kron(np.eye(15, 16, 1) - np.eye(15, 16), np.eye(2))  # row i: p_{i+1} − p_i
+P_vectors = D @ P_map @ D.T
+for name, covariance in (("landmarks", P_map), ("vectors", P_vectors)):
+    rho = abs(correlation(covariance))
+    far = abs(np.subtract.outer(*2 * [np.arange(len(rho)) // 2])) > 1
+    print(f"{name}: mean |ρ| of pairs that are not neighbours: {rho[far].mean():.2f}")
 
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## Deeper: why no determinant of the map grows
-#
-# Let $M$ be some rows of the map's covariance, before a sighting, and $M - B B^{\mathsf T}$ after
-# it, as in (07.11). What remains is a covariance, so $B$ can be written as $B = M^{1/2} C$, and
-#
-# $$\det(M - B B^{\mathsf T}) = \det M \cdot \det(I - C C^{\mathsf T}), \tag{07.17}$$
-#
-# where the eigenvalues of $I - C C^{\mathsf T}$ lie between 0 and 1: above 0 since a covariance is
-# left, at most 1 since a square was taken away. So does their product. A prediction leaves $M$ as it
-# was, by (07.5). For the vectors of (07.10) the same holds with $D M D^{\mathsf T}$ and $D B$.
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## In print: what the thesis says otherwise (optional)
-#
-# The MAK thesis writes both updates out, (4.18) to (4.39), with $W$ for our gain $K$. For every block
-# it prints a first line with $W$ and a second one with the blocks of $P$. You need this only if you
-# read the original.
-#
-# | place | printed | right | harm |
-# |---|---|---|---|
-# | (4.22)–(4.27), (4.33)–(4.38), first lines | $P - [W S^{-1} W]$ | $P - W S W^{\mathsf T}$ | the robot's do not multiply; the others run, and are wrong by any amount |
-# | (4.34), second line | begins with $P_{\mathrm r2}$ | $P_{\mathrm r1}$ | the robot forgets landmark 1 |
-# | (4.37) | $P_{12}(1 \mid 0)$ | $P_{12}(2 \mid 1)$ | none: both are zero |
-# | (4.19), (4.20), (4.30)–(4.32) | $P H^{\mathsf T} v$ | $P H^{\mathsf T} S^{-1} v$ | corrections of a wrong size and unit |
-
-# %% [markdown] slideshow={"slide_type": "subslide"}
-# | place | printed | right | harm |
-# |---|---|---|---|
-# | second update | $S$ from $P(2 \mid 2)$ | from $P(2 \mid 1)$ | $P(2 \mid 2)$ is made from $S$ |
-# | second update | $x(2 \mid 2) = x(2 \mid 2) + W v$ | $x(2 \mid 1) + W v$ | holds only if nothing moves |
-# | before (4.22) | without $H_{\mathrm r}$, only $v(1 \mid 0)$ is touched | $p_1(1 \mid 0)$ | an innovation is not updated |
-# | 4.3.4 | a prediction does not change the covariance | the *map's* covariance | (07.5); the end of 4.3.5 has it right |
-# | 4.3.5 | memory at least $o(N^2)$ | $\Omega(N^2)$ | $o(N^2)$ means *less* than $N^2$ |
-#
-# The gains (4.18) and (4.29) are right, and so are eleven of the twelve second lines. The machine
-# finds all of this:
-
-# %% slideshow={"slide_type": "subslide"} tags=["folded"]
-P_1r = P_r1.T
-SECOND_LINES = [  # as printed, by block; P_r2, with which (4.34) begins, is zero before update 2
-    {
-        "rr": P_rr - P_rr * H_r.T * S.I * H_r * P_rr,
-        "r1": -P_rr * H_r.T * S.I * H_p * P_11,
-        "r2": Z(3, 2),
-        "11": P_11 - P_11 * H_p.T * S.I * H_p * P_11,
-        "12": Z(2, 2),
-        "22": P_22,
-    },
-    {
-        "rr": P_rr - P_rr * H_r.T * S.I * H_r * P_rr,
-        "r1": Z(3, 2) - P_rr * H_r.T * S.I * H_r * P_r1,
-        "r2": -P_rr * H_r.T * S.I * H_p * P_22,
-        "11": P_11 - P_1r * H_r.T * S.I * H_r * P_r1,
-        "12": -P_1r * H_r.T * S.I * H_p * P_22,
-        "22": P_22 - P_22 * H_p.T * S.I * H_p * P_22,
-    },
-]
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+blocks_only = P_vectors * np.kron(np.eye(15), np.ones((2, 2)))
+for k in (8, 12):
+    total = np.kron(np.r_[np.ones(k), np.zeros(15 - k)], np.eye(2))  # the vectors from 0 to k
+    full, dropped_ = (np.sqrt(np.trace(total @ P @ total.T)) for P in (P_vectors, blocks_only))
+    print(
+        f"σ (√trace) of the vector from 0 to {k}: {full:.3f} m; correlations dropped {dropped_:.3f} m"
+    )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# We put the numbers of our example into the symbols, and compare with the filter. What is off is
-# given as a multiple of the right correction:
-
-# %% slideshow={"slide_type": "subslide"}
-stages, steps = shared_errors.two_sightings(0.1, heading_sigma=0.05, prior_sigma=0.2)
-ROWS = {"r": slice(0, 3), "1": slice(3, 5), "2": slice(5, 7)}
-
-
-def numbers(expression, k):
-    """A formula of blocks with the numbers of update k = 0, 1 put in."""
-    known = [stages[k][ROWS[a], ROWS[b]] for a, b in ("rr", "r1", "11", "22")]
-    known += [steps[k].H[:, :3], steps[k].H[:, 3:], steps[k].S]
-    return sp.lambdify((P_rr, P_r1, P_11, P_22, H_r, H_p, S), expression)(*known)
-
-
-def first_line(k, a, b):
-    """P − [W_a S⁻¹ W_b], as printed."""
-    W, S = steps[k].K, steps[k].S
-    return stages[k][ROWS[a], ROWS[b]] - W[ROWS[a]] @ np.linalg.inv(S) @ W[ROWS[b]]
-
-
-# %% slideshow={"slide_type": "subslide"} tags=["folded", "nbval-check-output"]
-def off(value, k, a, b):
-    """How far a block after update k is off, in units of the right correction."""
-    before, after = (stages[k + j][ROWS[a], ROWS[b]] for j in (0, 1))
-    size = np.linalg.norm(value - after)
-    return size / np.linalg.norm(after - before) if size > 1e-9 else 0.0
-
-
-lines, factors = ["| update | block | derived | first line | second line |", "|---" * 5 + "|"], []
-for k, derived in enumerate((first, second)):
-    for (a, b), printed in SECOND_LINES[k].items():
-        try:
-            factors.append(off(first_line(k, a, b), k, a, b))
-            told = f"{factors[-1]:.3g}"
-        except ValueError:
-            told = "does not multiply"
-        ours, theirs = (off(numbers(each, k), k, a, b) for each in (derived[a + b], printed))
-        lines.append(f"| {k + 1} | {a}{b} | {ours:.3g} | {told} | {theirs:.3g} |")
-Markdown("\n".join(lines))
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# What we derived is what the filter does, twelve times. Of the first lines, only those in which
-# nothing happens are right; the others are off by {= min(f for f in factors if f):.0f =} to
-# {= max(factors):.0f =} times the correction. (In other units these would be other numbers, since
-# $S^{-1}$ stands where $S$ belongs.) Of the second lines only that of $P_{\mathrm r1}$ in the second
-# update, (4.34), is wrong.
-
-# %% slideshow={"slide_type": "subslide"} tags=["folded", "nbval-check-output"]
-gains = {
-    "(4.18)": (P * H_1.T * S.I, [P_rr * H_r.T, P_11 * H_p.T, Z(2, 2)]),
-    "(4.29)": (P_then * H_2.T * S.I, [P_rr * H_r.T, P_1r * H_r.T, P_22 * H_p.T]),
-}
-for number, (derived, printed) in gains.items():
-    as_printed = sp.block_collapse(sp.BlockMatrix([[block] for block in printed]) * S.I)
-    print(number, "right" if sp.block_collapse(derived) == as_printed else "wrong")
-v = np.array([0.1, -0.05])  # any innovation
-for k, equations in enumerate(({"r": 19, "1": 20}, {"r": 30, "1": 31, "2": 32})):
-    for part, number in equations.items():
-        W = steps[k].K[ROWS[part]]
-        moved = np.linalg.norm(W @ steps[k].S @ v) / np.linalg.norm(W @ v)
-        print(f"(4.{number}) moves x {moved:.3f} times as far as it should")
-
-# %% slideshow={"slide_type": "subslide"} tags=["folded", "nbval-check-output"]
-H = np.zeros((2, 7))
-H[:, steps[1].columns] = steps[1].H
-from_21, from_22 = (H @ stages[k] @ H.T + shared_errors.R for k in (1, 2))
-print(f"S from P(2|1): off by {abs(from_21 - steps[1].S).max():.9f}", end="; ")
-print(
-    f"from P(2|2): off by {100 * np.linalg.norm(from_22 - from_21) / np.linalg.norm(from_21):.0f} %"
-)
-print(f"x(2|2) = x(2|2) + W v wants W v = 0; here |W v| = {np.linalg.norm(steps[1].K @ v):.3f}")
-no_robot = sp.BlockMatrix([[Z(2, 3), H_p, Z(2, 2)]])
-print("without H_r the gain is", sp.block_collapse(P * no_robot.T * S.I).blocks.T.tolist())
-A, Q = of("A", 3, 3), of("Q", 3, 3)
-F = sp.BlockMatrix([[A, Z(3, 2)], [Z(2, 3), sp.Identity(2)]])
-known = sp.BlockMatrix([[P_rr, P_r1], [P_1r, P_11]])
-moved = sp.block_collapse(F * known * F.T + sp.BlockMatrix([[Q, Z(3, 2)], [Z(2, 3), Z(2, 2)]]))
-print("a prediction leaves of P:", [b for b in moved.blocks if b in (P_rr, P_r1, P_1r, P_11)])
-N = sp.symbols("N", positive=True)
-print("(3 + 2N)² / N² tends to", sp.limit((3 + 2 * N) ** 2 / N**2, N, sp.oo), "and not to 0")
+# The vectors are less correlated, but not uncorrelated: without a compass all of them depend on the
+# rotation of the map. (Distances and angles do not depend on it.) Without the remaining correlations, σ
+# of the vectors between distant landmarks changes; here it becomes larger. And the vectors round a
+# closed loop no longer add up to zero unless the program enforces this constraint.

@@ -1,531 +1,777 @@
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=1
-# # 16 · Your own SLAM
+# # 16 · Your own SLAM: benchmarks and evaluation
 #
-# **You will be able to** measure a SLAM of your own as the field does: by relations instead of positions, by
-# its map, by its honesty; compare two versions on the same drives; and find out which part of it earns
-# its keep, without being fooled by luck.
+# **You will be able to** evaluate your own SLAM with the standard metrics of the field for its
+# trajectory, its map and its covariance; compare two versions in the same worlds; determine by an
+# ablation which part helps; and distinguish real progress from luck.
 #
-# **52 minutes. Before:** lesson [03](03_kalman_filter.ipynb) for NEES, lesson
-# [13](13_scan_matching.ipynb) for matching, lesson [15](15_closing_the_loop.ipynb) for loops.
+# **60 minutes. Before:** lesson [03](03_kalman_filter.ipynb) for NEES, lesson
+# [13](13_scan_matching.ipynb) for matching, lesson [15](15_pose_graph_slam.ipynb) for loop closing.
 #
-# *Key:* what is not measured does not improve, and a single look is no measurement.
+# *Key:* to improve a SLAM, measure its errors, and measure them in more than one run.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* This lesson is about measuring, and the project begins after it. Play "Whose frame?" and
-# "The best of many" in full: these two ideas change how a class works. For a poll: the question on the
-# one wrong turn, that on the map full of points, and that on fifty versions. `slamlab contest` holds the
-# contest; docs/contest.md says how.
+# *For the lecturer:* This lesson is about evaluation, and the project begins after it. Show "Absolute
+# and relative trajectory errors" and "The best of many" in full: these two sections have the largest
+# effect on the project. The questions on the two heading errors, on the map full of points, and on
+# fifty versions are suitable for a poll. `slamlab contest` runs the contest, which docs/contest.md
+# describes.
 
 # %% slideshow={"slide_type": "skip"} tags=["folded"]
+from dataclasses import replace
+
 import numpy as np
+from scipy.optimize import brentq
+from scipy.spatial import cKDTree
+from scipy.stats import chi2, ttest_1samp, ttest_ind, ttest_rel
 
+from classroom.checks import ask, compare
+from classroom.project.baselines import ROBOT, Baseline
+from classroom.project.estimate_errors import OFF_WALL, ON_WALL, aligned, map_score, relative_errors
+from classroom.project.estimator_runs import run_estimator
+from classroom.project.point_scale import NEES_BAND, inconsistency_penalty
+from classroom.project.scores import prepare
+from classroom.project.world_generation import generate_world
+from classroom.project.world_parameters import WORLD_FAMILIES, WorldFamily
 from slamlab import views
-from slamlab.checks import ask
 from slamlab.estimators.graph_slam import GraphSlam
-from slamlab.estimators.icp_slam import IcpSlam
-from slamlab.geometry import between, compose
+from slamlab.estimators.icp_slam import ODOMETRY_SIGMA, IcpSlam
+from slamlab.evaluation import nees
+from slamlab.geometry import between, compose, transform
 from slamlab.layers import Poses, Segments
-from slamlab.project.baselines import ROBOT, Baseline
-from slamlab.project.drawing import draw_world
-from slamlab.project.drive_errors import aligned, map_score, relative_errors
-from slamlab.project.driving import drive
-from slamlab.project.points import NEES_BAND, claim_cost
-from slamlab.project.scores import prepare
-from slamlab.project.world_families import FAMILIES, Family
+from slamlab.scanmatching import point_to_line
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=7
-# ## Whose frame?
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=9
+# ## Absolute and relative trajectory errors
 #
-# Here is a building that has been drawn at random, with furniture, and a drive through it. We know
-# the truth, because it is a simulation. A SLAM answers with poses; how good are they?
+# The project evaluates your SLAM by a **benchmark**: a fixed set of worlds, with rules and a score,
+# which allows a comparison of all programs. The next cell generates such a world, a random furnished
+# building, and a run through it. The world is simulated, so we know the **ground truth**: the true
+# poses and the true walls. A **metric** is a number computed from an estimate and the ground truth.
+# Which metric is suitable?
 #
-# The first idea is to take the mean distance between where the robot was and where the SLAM says it
-# was. Let us try it on a SLAM that makes a single mistake: it misjudges *one* turn by a few
-# degrees, and does everything else right.
+# The usual first choice is the **absolute trajectory error** (ATE) of lesson 12. A SLAM chooses its own
+# frame, so its trajectory is first aligned with the true trajectory by the best rigid motion (*rigid
+# alignment*, Horn, Umeyama). The ATE is the root mean square of the remaining distances. We test this
+# metric on a SLAM with a single error: it measures *one* turn with an error of a few degrees, and all
+# other motions correctly.
 
 # %% slideshow={"slide_type": "fragment"}
-world = draw_world(FAMILIES["plain"], np.random.default_rng([16, 0]), 30.0)
+world = generate_world(WORLD_FAMILIES["plain"], np.random.default_rng([16, 0]), 30.0)
 truth, metres = world.truth.poses, world.metres
 walls = Segments("walls", world.floor.outline())
-print(f"{len(world)} readings, {metres[-1]:.0f} m of way, {len(walls.rows)} walls")
+inner = np.flatnonzero((metres > 5) & (metres < metres[-1] - 5))  # at least 5 m from both ends
+print(f"{len(world)} readings, {metres[-1]:.0f} m travelled, {len(walls.rows)} walls")
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "16-once",
-    "One SLAM misjudges its very first turn by 10°, another one its very last turn by 10°. "
-    "Everything else is right. **Which of the two is the better SLAM?**",
+    "One SLAM measures one turn in the middle of its run with an error of 10°; another SLAM makes the same error 5 m "
+    "before the end. All other motions are right. **Which of the two is the better SLAM?**",
     {
-        "the second: its poses are nearer to the truth": "they are, since there is hardly any way left on "
-        "which the mistake could show. That is luck of the drive, not skill.",
-        "the first: what came after averages its mistake out": "nothing averages it out: all poses after "
-        "it are turned by the same 10°, however many there are.",
-        "neither": "each made one mistake of the same size. A measure that tells them apart measures "
-        "where on the drive it happened.",
+        "the second: its ATE is smaller": "its ATE is smaller because the error affects only a short part of the run. "
+        "This is luck, and not the quality of the SLAM.",
+        "the first: later measurements reduce its error": "no later measurement corrects the error: all later poses are "
+        "rotated by the same 10°.",
+        "neither": "both SLAMs made one error of the same size. A metric that differs between them depends on the time "
+        "of the error.",
     },
     right="neither",
 )
 
 
 # %% slideshow={"slide_type": "subslide"} answers="16-once"
-def with_one_wrong_turn(at, degrees):
-    """The true poses, but for one turn that is misjudged."""
-    steps = between(truth[:-1], truth[1:])
-    steps[at, 2] += np.radians(degrees)
-    poses = [truth[0]]
-    for step in steps:
-        poses.append(compose(poses[-1], step))
-    return np.array(poses)
+def with_heading_error(at, degrees):
+    """The true poses, except for the error of one turn."""
+    after = compose(truth[at + 1], [0.0, 0.0, np.radians(degrees)])  # right position, wrong heading
+    later = compose(after, between(truth[at + 1], truth[at + 1 :]))  # by the true motions
+    return np.concatenate([truth[: at + 1], later])
 
 
 # %% slideshow={"slide_type": "fragment"} answers="16-once"
-def two_measures(poses):
-    """Mean distance from the truth, and mean error of pieces 5 m long [m]."""
-    away = np.hypot(*(poses - truth)[:, :2].T)
-    return away.mean(), relative_errors(poses, truth, metres, 5.0).mean()
+def ate_and_rpe(poses):
+    """ATE after rigid alignment, and mean relative pose error over pieces of 5 m [m]."""
+    away = transform(aligned(poses, truth), poses[:, :2]) - truth[:, :2]
+    ate = np.sqrt(np.mean(np.sum(away**2, axis=1)))
+    return ate, relative_errors(poses, truth, metres, 5.0).mean()
 
 
-# %% slideshow={"slide_type": "fragment"} answers="16-once"
-def one_wrong_turn(at, degrees):
-    poses = with_one_wrong_turn(at, degrees)
-    away, e = two_measures(poses)
-    title = f"mean distance from the truth {away:.2f} m; mean error of pieces 5 m long {e:.3f} m"
-    shown = [walls, Poses("truth", truth), Poses("corrected", poses)]
+by_reading = np.array([ate_and_rpe(with_heading_error(at, 10)) for at in inner])
+
+
+# %% slideshow={"slide_type": "fragment"} answers="16-once" tags=["folded"]
+def one_heading_error(at, degrees):
+    """The floor plan with the true trajectory and the aligned estimate, and both metrics."""
+    poses = with_heading_error(at, degrees)
+    ate, rpe = ate_and_rpe(poses)
+    title = f"ATE {ate:.2f} m; relative pose error over 5 m {rpe:.3f} m"
+    estimate = compose(aligned(poses, truth), poses)
+    shown = [walls, Poses("truth", truth), Poses("corrected", estimate)]
     fig, _ = views.side_by_side({title: shown}, size=(9, 5))
     return fig
 
 
 # %% slideshow={"slide_type": "fragment"} answers="16-once"
 views.explore(
-    one_wrong_turn,
+    one_heading_error,
     lambda at, degrees: (
-        f"A floor plan with the true way and an estimate that turns away from it by {degrees}° at "
-        f"reading {at} and stays at that angle."
+        f"A floor plan with the true trajectory and an aligned estimate, which has a heading error of "
+        f"{degrees}° from reading {at} on."
     ),
-    at=(8, len(truth) - 18, 8),
+    at=(int(inner[0]), int(inner[-1]), int(inner[len(inner) // 2])),
     degrees=(-20, 20, 10),
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="16-once"
-# Move `at`: as the mistake of 10° moves towards the end, the mean distance from the truth falls from
-# {= two_measures(with_one_wrong_turn(8, 10))[0]:.2f =} m to
-# {= two_measures(with_one_wrong_turn(len(truth) - 18, 10))[0]:.2f =} m. The other number, which we define next,
-# stays near {= np.mean([two_measures(with_one_wrong_turn(k, 10))[1] for k in range(8, len(truth) - 18)]):.2f =} m,
-# wherever the mistake is made.
+# **Change `at`:** if the error of 10° occurs 5 m before the end instead of in the middle, the ATE
+# decreases from {= by_reading[len(inner) // 2, 0]:.2f =} m to {= by_reading[-1, 0]:.2f =} m. The other
+# number in the title, which we define next, stays between {= by_reading[:, 1].min():.3f =} m and
+# {= by_reading[:, 1].max():.3f =} m for all positions of the error at least 5 m from both ends.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# ### Relations
+# ### Relative pose error
 #
-# A SLAM chooses its own frame, and a mistake turns all of that frame. So we do not compare poses.
-# We compare **relations**: where pose $x_j$ lies as seen from pose $x_i$. The error of a relation
-# is what is left when the true one is undone; a star marks the truth:
+# A heading error rotates all later poses. Therefore, the **relative pose error** (RPE) does not compare
+# poses. It compares *relations* (Kümmerle): the pose $x_j$ relative to the pose $x_i$. The error of a
+# relation is the estimated relation relative to the true relation; a star marks the truth:
 #
 # $$e_{ij} = \ominus\left(\ominus x^*_i \oplus x^*_j\right) \oplus \left(\ominus x_i \oplus x_j\right).
 # \tag{16.1}$$
 #
-# The two poses are a certain distance apart, measured along the drive, such as 5 m, and we take the
-# mean length of $e_{ij}$'s position over all such pairs. One wrong turn spoils only the pairs that
-# have it between them.
+# The path between the two poses has a fixed length, such as 5 m. Our metric is the mean length of the
+# position part of $e_{ij}$ over all such pairs (lesson 12 used the root mean square over pairs with a
+# fixed number of scans between them). One heading error affects only the pairs that contain this error.
+# Many benchmarks report the angle of $e_{ij}$ as well.
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=6
-# ## Short, middle, long
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# **Your turn.** Compute $e_{ij}$ for one pair of poses. `between(a, b)` is the pose
+# $\ominus a \oplus b$. The check compares your result with the estimate $x_j$ relative to the pose that
+# $x_i$ and the true relation predict.
+
+# %% slideshow={"slide_type": "fragment"} tags=["your-turn"]
+poses, i = with_heading_error(60, 10), 59
+j = np.searchsorted(metres, metres[i] + 5.0 - 1e-9)  # 5 m farther
+e_ij = ...  # (3,), from truth[i], truth[j], poses[i], poses[j]
+compare(e_ij, [*between(compose(poses[i], between(truth[i], truth[j])), poses[j])])
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# <details><summary>Answer</summary>
 #
-# How far apart should the two poses be? Each distance asks a different question. We let the
-# package's own estimators drive through five such buildings: the wheels alone; `plain`, the ICP of
-# lesson 13 without its safeguards; `icp`, with them; and `graph`, with and without loops. Each is
-# handed one reading after the other, as yours will be.
+# ```python
+# poses, i = with_heading_error(60, 10), 59
+# j = np.searchsorted(metres, metres[i] + 5.0 - 1e-9)  # 5 m farther
+# e_ij = between(between(truth[i], truth[j]), between(poses[i], poses[j]))
+# ```
+#
+# </details>
 
-# %% slideshow={"slide_type": "fragment"}
-SMALL = Family("small", plans=(("crrc", "crc"),))  # four rooms at most
-arenas = [prepare(draw_world(SMALL, np.random.default_rng([16, k]), 25.0)) for k in range(5)]
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=7
+# ## Relative pose error over 1, 5 and 20 m
+#
+# Which distance between the two poses is suitable? Each distance shows a different property. We run the
+# library's estimators in five smaller buildings with at most four rooms: odometry alone; `icp`, which
+# matches each scan with the previous scan; and `graph`, with and without loop closing. Each estimator
+# receives one reading after the other, as your SLAM will. A later section uses two more variants of
+# `icp`.
+
+
+# %% slideshow={"slide_type": "fragment"} tags=["code"]
+class Ablated(IcpSlam):
+    """``icp``, with one setting of its matcher changed."""
+
+    def __init__(self, **changed):
+        super().__init__()
+        self.settings = {"prior_sigmas": ODOMETRY_SIGMA} | changed
+
+    def _scan_to_scan(self, points):
+        return point_to_line(points, self._reference_scan, self._increment, **self.settings)
+
+
+SMALL = WorldFamily("small", plans=(("crrc", "crc"),))  # four rooms at most
+arenas = [prepare(generate_world(SMALL, np.random.default_rng([16, k]), 20.0)) for k in range(5)]
 VARIANTS = {
-    "plain": lambda: Baseline(IcpSlam(plain=True)),
-    "no loops": lambda: Baseline(GraphSlam(ROBOT, loops=False)),
+    "icp, no distance gate": lambda: Baseline(Ablated(gate=(50.0, 50.0))),
+    "icp, no normal gate": lambda: Baseline(Ablated(normal_gate=np.pi)),
+    "graph, no loops": lambda: Baseline(GraphSlam(ROBOT, loops=False)),
 }
-drives = [
-    dict(arena.drives) | {name: drive(make, arena.readings) for name, make in VARIANTS.items()}
+runs = [
+    dict(arena.runs)
+    | {name: run_estimator(make, arena.readings) for name, make in VARIANTS.items()}
     for arena in arenas
 ]
-NAMES = "odometry", "plain", "icp", "no loops", "graph"
-
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "16-lengths",
-    "`graph` with its loops and without them: **over which length will their errors differ most?**",
+    "`graph` with and without loop closing: **over which length will their errors differ most?**",
     {
-        "over 1 m": "there both do the same: they match a scan with what was seen lately. No loop lies "
-        "within one metre.",
-        "over 5 m": "a loop that is closed moves each of the steps a little. Five metres gather only a few.",
-        "over 20 m": "a long piece gathers the drift of many steps, and that is what a loop takes away.",
+        "over 1 m": "over 1 m both versions do the same: they match a scan with recent scans. No loop lies within one "
+        "metre.",
+        "over 5 m": "a closed loop corrects each step a little, and 5 m contain only a few steps.",
+        "over 20 m": "over a long distance the drift of many steps accumulates, and loop closing corrects this drift.",
     },
     right="over 20 m",
 )
 
 
 # %% slideshow={"slide_type": "subslide"} answers="16-lengths"
-def errors_over(way, name):
-    """Mean relative error over a length, in each building (k,) [m]."""
+def errors_over(length, name):
+    """Mean relative pose error over a length, in each building (k,) [m]."""
     found = []
-    for arena, own in zip(arenas, drives, strict=True):
+    for arena, own in zip(arenas, runs, strict=True):
         poses, true = own[name].trajectory, arena.world.truth.poses
-        found.append(relative_errors(poses, true, arena.world.metres, way).mean())
+        found.append(relative_errors(poses, true, arena.world.metres, length).mean())
     return np.array(found)
 
 
 # %% slideshow={"slide_type": "fragment"} answers="16-lengths" tags=["folded"]
 lengths = np.array([0.5, 1, 2, 5, 10, 20])
 errors = {
-    name: np.array([errors_over(way, name).mean() for way in lengths])
-    for name in ("graph", "odometry", "icp", "no loops")
+    name: np.array([errors_over(length, name).mean() for length in lengths])
+    for name in ("graph", "odometry", "icp", "graph, no loops")
 }
-fig, ax = views.curves(lengths, errors, "length of the pieces [m]", "mean error [m]", size=(9, 4.4))
-ax.set(xscale="log", yscale="log", xticks=lengths, xticklabels=[f"{way:g}" for way in lengths])
+labels = "length of the pieces [m]", "mean relative pose error [m]"
+fig, ax = views.curves(lengths, errors, *labels, size=(9, 4.4))
+ticks = [f"{length:g}" for length in lengths]
+ax.set(xscale="log", yscale="log", xticks=lengths, xticklabels=ticks)
 views.legend(ax, loc="upper left")
 views.show(
     fig,
-    f"Four curves that rise with the length of the pieces: odometry to {errors['odometry'][-1]:.1f} m over "
-    f"{lengths[-1]:g} m, icp to {errors['icp'][-1]:.3f} m, graph without loops to {errors['no loops'][-1]:.3f} m, "
-    f"graph to {errors['graph'][-1]:.3f} m.",
+    f"Four curves over the length of the pieces: odometry rises to {errors['odometry'][-1]:.1f} m over "
+    f"{lengths[-1]:g} m, icp to {errors['icp'][-1]:.3f} m, graph without loop closing to "
+    f"{errors['graph, no loops'][-1]:.3f} m, graph to {errors['graph'][-1]:.3f} m.",
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="16-lengths"
-# Over 1 m the two differ by {= 1000 * abs(errors["no loops"][1] - errors["graph"][1]):.1f =} mm,
-# over 20 m by {= 1000 * (errors["no loops"][-1] - errors["graph"][-1]):.0f =} mm. A short piece
-# shows the noise of a match, a long one shows drift, and whether loops are closed. The project
-# takes 1, 5 and 20 m, with equal weight. Since a difficult drive is difficult for everyone, what
-# counts is the *factor* by which your errors are smaller than those of the wheels on the same
-# drive.
+# The errors of the two versions of `graph` differ by
+# {= 1000 * abs(errors["graph, no loops"][1] - errors["graph"][1]):.1f =} mm over 1 m, and by
+# {= 1000 * (errors["graph, no loops"][-1] - errors["graph"][-1]):.0f =} mm over 20 m. The error over a
+# short distance shows the noise of a match; the error over a long distance shows drift and the effect
+# of loop closures. The project uses 1, 5 and 20 m, with equal weight. A difficult run is difficult for
+# every program. So the score uses the *factor* by which your errors are smaller than those of odometry
+# in the same run (its logarithm, averaged over the pairs; 5 mm are added to both errors).
+#
+# These runs are only {= min(a.world.metres[-1] for a in arenas):.0f =} to
+# {= max(a.world.metres[-1] for a in arenas):.0f =} m long, so their pieces of 20 m overlap almost
+# completely. The errors of such pieces are strongly correlated. Therefore, one building counts as one
+# sample.
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
-# ## Is the map right?
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=7
+# ## Map metrics: recall and precision
 #
-# A map is a heap of points. Two things may be wrong with it: walls that the robot has seen are
-# missing, and there are points where no wall is. The map score takes the share of the walls that
-# are in the map, and subtracts the share of the points that lie on no wall:
+# A map is a set of points. A map can have two faults: observed walls are missing, or points lie far
+# from all walls. The **recall**, the share of the observed walls with a point within 5 cm, measures the
+# first fault. The **precision**, here the share of the points within 15 cm of a wall, measures the
+# second fault. The map score combines both metrics:
 #
-# $$\text{score} = \frac{\text{walls with a point within 5 cm}}{\text{walls that were seen}}
-# - \frac{\text{points more than 15 cm off all walls}}{\text{points}}. \tag{16.2}$$
+# $$\text{score} = \max\left(0,\; \text{recall} - (1 - \text{precision})\right). \tag{16.2}$$
 #
-# Walls are counted every 10 cm, and at most one point in each cell of 5 cm, so that copies of a
-# point do not count.
+# The score uses samples of the walls every 10 cm, and counts at most one point in each cell of 5 cm, so
+# copies of a point have no effect.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "16-map",
-    "Somebody hands in a map with a point in **every** cell of 5 cm, all over the building. **What is its "
-    "score?**",
+    "A student submits a map with a point in **every** cell of 5 cm of the building. About 70 of 100 "
+    "cells of this building are more than 15 cm away from all walls. **What is the score of the map?**",
     {
-        "1: each wall has a point": "the first share is 1 indeed. But the second one is subtracted.",
-        "about 0.3": "the first share is 1. Some 70 of 100 cells of a furnished building lie more than "
-        "15 cm off all walls, and they are subtracted.",
-        "0: nothing was measured": "a score knows nothing of how a map was made. That is why the project "
-        "lets a map count no more than the trajectory it is drawn along.",
+        "1: each wall has a point": "the recall is 1, but wrong points reduce the score.",
+        "about 0.3": "the recall is 1, the precision about 0.3, and 1 − (1 − 0.3) = 0.3.",
+        "0: the map contains no measurement": "the score does not depend on the origin of the points.",
     },
     right="about 0.3",
 )
 
+
 # %% slideshow={"slide_type": "subslide"} answers="16-map"
+def recall_and_precision(points):
+    """Recall and precision of a map of the first building; the points lie in different cells."""
+    recall = np.isfinite(cKDTree(points).query(seen, distance_upper_bound=ON_WALL)[0]).mean()
+    return recall, np.isfinite(
+        cKDTree(all_walls).query(points, distance_upper_bound=OFF_WALL)[0]
+    ).mean()
+
+
 seen, all_walls = arenas[0].walls
 low, high = all_walls.min(axis=0), all_walls.max(axis=0)
-full = np.stack(np.meshgrid(*(np.arange(a, b, 0.05) for a, b in zip(low, high, strict=True))), -1)
-graph = drives[0]["graph"]
+grid = np.meshgrid(*(np.arange(a, b, 0.05) for a, b in zip(low, high, strict=True)))
+everywhere = np.stack(grid, axis=-1).reshape(-1, 2)
+graph = arenas[0].runs["graph"]
+graph_map = transform(aligned(graph.trajectory, arenas[0].world.truth.poses), graph.points)
 
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="16-map"
-maps = {
-    "the walls themselves": seen,
-    "the walls, 10 cm beside": seen + np.array([0.1, 0.0]),
-    "a point everywhere": full.reshape(-1, 2),
-    "graph, laid on the truth": compose(
-        aligned(graph.trajectory, arenas[0].world.truth.poses),
-        np.pad(graph.points, ((0, 0), (0, 1))),
-    )[:, :2],
-}
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output", "nearly"] answers="16-map"
+maps = {"the walls themselves": seen, "the walls, moved by 10 cm": seen + np.array([0.1, 0.0])}
+maps |= {"a point everywhere": everywhere, "graph": graph_map}
+print(f"{'':25} recall  precision  score")
 for name, points in maps.items():
-    print(f"{name:25} {map_score(points, seen, all_walls):5.2f}")
+    recall, precision = recall_and_precision(points)
+    print(f"{name:25} {recall:6.2f} {precision:10.2f} {map_score(points, seen, all_walls):6.2f}")
 
-# %% [markdown] slideshow={"slide_type": "fragment"} answers="16-map"
-# A flood of points is worth {= map_score(maps["a point everywhere"], seen, all_walls):.2f =}, a map
-# that was drawn by `graph` {= map_score(maps["graph, laid on the truth"], seen, all_walls):.2f =}.
-# Ten centimetres cost half: walls that run along the shift keep their points, the others lose them.
-# In the project a map counts no more than the trajectory that it is drawn along, so floods gain
-# nothing there. Before it is scored, a map is laid on the truth by the rigid motion that brings the
-# *trajectory* nearest to the true one, because the choice of a frame is nobody's merit and nobody's
-# fault.
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# **Your turn.** Compute the score of the map of `graph` from its recall and its precision.
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=7
-# ## Do you know how sure you are?
+# %% slideshow={"slide_type": "fragment"} tags=["your-turn"]
+recall, precision = recall_and_precision(graph_map)
+score = ...  # by (16.2); it is positive here
+compare(score, map_score(graph_map, seen, all_walls), tolerance=0.02)
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# <details><summary>Answer</summary>
 #
-# A robot that has to pass a door wants to know how far its pose may be off. You may claim a covariance $P$
-# for each pose, at the moment when you give it. Lesson 03 has the test of such a claim, NEES; with the error
-# $e$ of the pose,
+# ```python
+# recall, precision = recall_and_precision(graph_map)
+# score = recall - (1 - precision)
+# ```
 #
-# $$\text{NEES} = e^\top P^{-1} e, \tag{16.3}$$
+# </details>
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# ### A misuse of the map score
 #
-# which is 3 on average if $P$ is true, because a pose has three components.
+# In the project the map contributes a fifth of the points, and its mark is limited to that of the
+# trajectory. Before the evaluation, the map is moved by the rigid motion that aligns the *trajectory*
+# with the true trajectory, because the choice of the frame should have no effect. How many points does
+# the trajectory of `graph` get in the first building with different maps?
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output", "nearly"]
+back = between(aligned(graph.trajectory, arenas[0].world.truth.poses), np.zeros(3))
+for name, points in {
+    "no map": np.empty((0, 2)),
+    "a point everywhere": transform(back, everywhere),
+}.items():
+    print(f"{name:20} {arenas[0].judge(replace(graph, points=points)).points:5.1f} points of 100")
+print(f"{'its own map':20} {arenas[0].judge(graph).points:5.1f} points of 100")
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# So a map full of points gets a few points here, but far fewer than a measured map. For every metric,
+# ask this question: which methods give a high score without a good estimate?
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=8
+# ## Is the reported covariance consistent?
+#
+# A robot that drives through a door needs the uncertainty of its pose. Your SLAM may report a
+# covariance $P$ for each pose, directly after the reading. The NEES of lesson 03 tests this covariance.
+# For the error $e$ of the pose,
+#
+# $$\text{NEES} = e^\top P^{-1} e. \tag{16.3}$$
+#
+# The error and the covariance must be in the same frame. The project uses the frame of your SLAM: the
+# true trajectory is moved so that its first pose is your first pose, and $e = x - x^*$ contains the
+# differences in $x$, $y$ and $\theta$ along the axes of this frame, with the angle wrapped. The mean
+# NEES is 3 if $e$ has mean zero and the covariance $P$, because a pose has three components.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "16-half",
-    "Your true errors have the covariance $P$. You claim standard deviations that are **half** as large. "
-    "**What is your mean NEES?**",
+    "Your errors have mean zero and the covariance $P$. You report standard deviations that are **half** as "
+    "large. **What is your mean NEES?**",
     right=12,
     tolerance=0.5,
-    reason="half of σ is a quarter of the variance. Its inverse is four times as large, and 4 · 3 = 12.",
+    reason="half the σ gives a quarter of the variance. The inverse is four times as large, and 4 · 3 = 12.",
     wrong={
-        6: "twice the NEES would be half of the variance. You halved σ.",
-        1.5: "to claim less doubt is to be *over*confident, and that makes NEES larger.",
-        3: "that is the mean for a claim that is true.",
+        6: "half the variance would double the NEES, but half the σ gives a quarter of the variance.",
+        1.5: "a smaller covariance is *over*confident, and makes the NEES larger.",
+        3: "this is the mean for a consistent covariance.",
     },
 )
 
 
 # %% slideshow={"slide_type": "subslide"} answers="16-half"
-def claimed(sigma):
-    """What it costs to claim ``sigma`` times the true standard deviations."""
-    claims = np.geomspace(0.05, 20, 200)
-    costs = {"cost of the claim": [claim_cost(3 / s**2) for s in claims]}
-    fig, ax = views.curves(claims, costs, "claimed over true σ", "points", size=(9, 4))
-    ax.plot(sigma, claim_cost(3 / sigma**2), "o", color=views.COLOURS["robot"], markersize=11)
-    ax.set(xscale="log", title=f"NEES {3 / sigma**2:.3g}: {claim_cost(3 / sigma**2):.1f} points")
+def share_that_loses(ratio):
+    """The share of runs that lose points if the reported σ is ``ratio`` times the true σ."""
+    low, high = NEES_BAND  # the NEES of a run is χ² with 3 degrees of freedom, over ratio²
+    return 1 - chi2.cdf(high * ratio**2, 3) + chi2.cdf(low * ratio**2, 3)
+
+
+# %% slideshow={"slide_type": "fragment"} answers="16-half" tags=["folded"]
+def reported(ratio):
+    """Points lost, at the expected NEES, by a reported σ of ``ratio`` times the true one."""
+    ratios = np.geomspace(0.05, 20, 200)
+    costs = {"at the expected NEES": [inconsistency_penalty(3 / s**2) for s in ratios]}
+    fig, ax = views.curves(ratios, costs, "reported σ / true σ [1]", "points lost", size=(9, 4))
+    lost = inconsistency_penalty(3 / ratio**2)
+    ax.plot(ratio, lost, "o", color=views.COLOURS["robot"], markersize=11)
+    share = f"{100 * share_that_loses(ratio):.0f} % of single runs lose points"
+    ax.set(xscale="log", title=f"expected NEES {3 / ratio**2:.3g}: {lost:.1f} points; {share}")
     return fig
 
 
 # %% slideshow={"slide_type": "fragment"} answers="16-half"
 views.explore(
-    claimed,
-    lambda sigma: (
-        f"Points lost over claimed σ: none between {np.sqrt(3 / NEES_BAND[1]):.1f} and "
-        f"{np.sqrt(3 / NEES_BAND[0]):.1f} times the true one, more to both sides; a dot at {sigma:g}."
+    reported,
+    lambda ratio: (
+        f"Points lost over the ratio of reported and true σ: no loss between {np.sqrt(3 / NEES_BAND[1]):.1f} "
+        f"and {np.sqrt(3 / NEES_BAND[0]):.1f}, and an increasing loss on both sides; a dot at {ratio:g}."
     ),
-    sigma=(0.1, 10.0, 0.5),
+    ratio=(0.1, 10.0, 0.5),
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="16-half"
-# A claim costs nothing while σ is stated at most {= np.sqrt(NEES_BAND[1] / 3):.1f =} times too
-# small, or {= np.sqrt(3 / NEES_BAND[0]):.1f =} times too large. The band is wide, from
-# {= NEES_BAND[0]:.2f =} to {= NEES_BAND[1]:.1f =}, because neighbouring errors of a drive are
-# alike: a drive tells little more than one draw, and 95 of 100 draws of a χ² with three degrees of
-# freedom lie there. If you claim nothing, you lose nothing. If you claim to be exact, you lose 20
-# points.
+# A run loses no points if its NEES is inside the 95 % interval of one sample of χ² with three degrees
+# of freedom, from {= NEES_BAND[0]:.2f =} to {= NEES_BAND[1]:.1f =}. A run counts as one sample, because
+# the errors of neighbouring poses are correlated. The curve shows the expected NEES, and the NEES of
+# single runs varies. If the errors are Gaussian and a run is one sample,
+# {= 100 * share_that_loses(1):.0f =} % of the runs lose points with the true σ. With a σ that is
+# {= np.sqrt(NEES_BAND[1] / 3):.1f =} times too small (overconfident), where the curve begins to rise,
+# {= 100 * share_that_loses(np.sqrt(3 / NEES_BAND[1])):.0f =} % lose points. With a σ that is
+# {= np.sqrt(3 / NEES_BAND[0]):.1f =} times too large (conservative),
+# {= 100 * share_that_loses(np.sqrt(3 / NEES_BAND[0])):.0f =} % lose points. If you report no
+# covariance, you lose no points. With a covariance near zero, you lose 20 points, the maximum.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# ### Where honest doubt comes from
+# ### Sources of the covariance
 #
-# - While only the wheels speak, $P$ grows with each step, as in lesson 04.
-# - A matched scan makes the *step* certain, but not the pose: the step's doubt is added to that of
-#   the pose before.
-# - Neighbouring points of a scan share their errors. A hundred points that err alike are worth one.
-# - A loop makes the pose as sure as the old pose was, and the match between them.
+# - With odometry alone, $P$ grows with each step, as in lesson 04.
+# - A match measures the *step*, not the pose: the new covariance is the sum of the covariances of the
+#   previous pose and of the match, each transformed by its Jacobian of $\oplus$ (lesson 04).
+# - Neighbouring points of a scan have correlated errors. A hundred points with the same error contain
+#   as much information as one point.
+# - After a loop closure, the covariance of the pose follows from those of the old pose and of the
+#   match.
 #
-# When you have a formula, compare it with your errors in practice worlds, and scale it until NEES
-# is 3. This is not cheating: it is calibration.
+# If you have a formula for the covariance, compare it with your errors in practice worlds, and scale it
+# so that the mean NEES is 3. This is a legitimate method, called **calibration**.
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# **Your turn.** The cell contains simulated errors of 1000 poses, and a covariance `P` that is too
+# small. Find the factor for `P` that makes the mean NEES 3. The check compares your result with a
+# numerical search.
+
+# %% slideshow={"slide_type": "fragment"} tags=["your-turn"]
+P = np.diag([0.05, 0.05, 0.01]) ** 2
+simulated = np.random.default_rng(3).normal(0, [0.1, 0.08, 0.025], (1000, 3))
+factor = ...  # from nees(simulated, P)
+compare(factor, brentq(lambda c: nees(simulated, c * P).mean() - 3, 0.01, 100), tolerance=1e-4)
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# <details><summary>Answer</summary>
+#
+# ```python
+# P = np.diag([0.05, 0.05, 0.01]) ** 2
+# simulated = np.random.default_rng(3).normal(0, [0.1, 0.08, 0.025], (1000, 3))
+# factor = nees(simulated, P).mean() / 3
+# ```
+#
+# One factor corrects the mean, but not the three components: here their σ need different factors.
+# </details>
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=9
-# ## Two versions, the same worlds
+# ## Paired comparison of two versions in the same worlds
 #
-# You have changed something. Is it better now? Here are the errors over 20 m of `graph` in five buildings, with
-# its loops and without. Buildings differ more than the versions do: one is easy for both, another one hard
-# for both.
+# You have changed your SLAM. Is the new version better? The next cell prints the errors of `graph` over
+# 20 m in five buildings, with and without loop closing. The buildings differ more than the versions:
+# some buildings are easy for both versions, and other buildings are hard for both.
 
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output", "nearly"]
-e = {name: errors_over(20.0, name) for name in NAMES}
-for name in ("no loops", "graph"):
-    print(f"{name:>9}:", "  ".join(f"{error:.3f}" for error in e[name]), "m")
+NAMES = "odometry", "icp", *VARIANTS, "graph"
+over_20 = {name: errors_over(20.0, name) for name in NAMES}
+for name in ("graph, no loops", "graph"):
+    print(f"{name:>15}:", "  ".join(f"{error:.3f}" for error in over_20[name]), "m")
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "16-paired",
-    "The means of both versions have wide intervals, and the intervals overlap. **What follows?**",
+    "The means of both versions have wide confidence intervals, and the intervals overlap. **What follows?**",
     {
-        "the versions cannot be told apart": "that would follow if each had driven in other buildings. Here "
-        "most of the spread is that of the buildings, and both share it.",
-        "nothing yet: look at the differences, building by building": "what is hard for both cancels in "
-        "the difference, and the interval of the mean difference is much narrower.",
-        "the better mean is better": "five buildings are few: a mean alone says nothing of luck.",
+        "the versions cannot be distinguished": "this would follow if the versions had run in different buildings. Here "
+        "most of the variation is that of the buildings, and it is common to both versions.",
+        "nothing yet: compute the differences in each building": "the variation common to both versions cancels in the "
+        "difference.",
+        "the version with the better mean is better": "five buildings are few: a mean alone does not show the effect of chance.",
     },
-    right="nothing yet: look at the differences, building by building",
+    right="nothing yet: compute the differences in each building",
 )
 
-# %% slideshow={"slide_type": "subslide"} answers="16-paired"
-drawn = np.random.default_rng(0).integers(len(arenas), size=(4000, len(arenas)))
-without, with_loops = np.log(e["no loops"]), np.log(e["graph"])
-intervals = {
-    "no loops": np.quantile(np.exp(without[drawn].mean(axis=1)), [0.025, 0.975]),
-    "graph": np.quantile(np.exp(with_loops[drawn].mean(axis=1)), [0.025, 0.975]),
-    "ratio": np.quantile(np.exp((without - with_loops)[drawn].mean(axis=1)), [0.025, 0.975]),
+# %% slideshow={"slide_type": "subslide"} answers="16-paired" tags=["code"]
+without, with_loops = np.log(over_20["graph, no loops"]), np.log(over_20["graph"])
+tests = {
+    "no loops [m]": ttest_1samp(without, 0),
+    "graph [m]": ttest_1samp(with_loops, 0),
+    "ratio, unpaired": ttest_ind(without, with_loops, equal_var=False),
+    "ratio, paired": ttest_rel(without, with_loops),
 }
+intervals = {name: np.exp(test.confidence_interval()) for name, test in tests.items()}
 for name, (low, high) in intervals.items():
-    print(f"{name:>9}: from {low:.3f} to {high:.3f}")
+    print(f"{name:>15}: from {low:.3f} to {high:.3f}")
 
-# %% slideshow={"slide_type": "fragment"} answers="16-paired" tags=["folded"]
+# %% slideshow={"slide_type": "subslide"} answers="16-paired" tags=["folded"]
 number = np.arange(1, len(arenas) + 1)
-pair = {name: e[name] for name in ("graph", "no loops")}
-fig, ax = views.curves(number, pair, "building", "error over 20 m [m]", size=(9, 4))
-ax.set(ylim=(0, 1.35 * max(e["no loops"])))
+pair = {name: over_20[name] for name in ("graph", "graph, no loops")}
+fig, ax = views.chart("building", "relative pose error over 20 m [m]", size=(9, 4))
+ax.vlines(number, *pair.values(), color=views.COLOURS["limit"])
+for (name, each), meaning, mark in zip(pair.items(), ("corrected", "naive"), "os", strict=True):
+    ax.plot(number, each, mark, color=views.COLOURS[meaning], markersize=9, label=name)
+ax.set(ylim=(0, 1.35 * max(over_20["graph, no loops"])), xticks=number)
 views.legend(ax, loc="upper left", ncols=2)
 views.show(
     fig,
-    f"Errors in five buildings: without loops {e['no loops'].min():.3f} to {e['no loops'].max():.3f} m, "
-    f"with loops {e['graph'].min():.3f} to {e['graph'].max():.3f} m, below it building by building.",
+    f"Errors in five buildings: without loop closing {over_20['graph, no loops'].min():.3f} to "
+    f"{over_20['graph, no loops'].max():.3f} m, with loop closing {over_20['graph'].min():.3f} to {over_20['graph'].max():.3f} m, "
+    "which is smaller in each building.",
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="16-paired"
-# The first two intervals are wide, and they overlap. Yet without loops the errors are larger by a
-# factor between {= intervals["ratio"][0]:.1f =} and {= intervals["ratio"][1]:.1f =}, far from 1. We
-# took logarithms, since errors differ by factors, and we drew the buildings with replacement, *the
-# same ones for both*. This is the **paired bootstrap**, and a contest uses it to tell its ranks
-# apart.
+# Without loop closing, the error is larger in every building. The cell computes 95 % confidence
+# intervals of means of *logarithms*, because errors differ by factors, and converts them back to
+# factors. The intervals of the two (geometric) means overlap. The interval of the ratio of the errors
+# is {= intervals["ratio, unpaired"][0]:.1f =} to {= intervals["ratio, unpaired"][1]:.1f =} if we treat
+# the two lists as samples of different buildings, and {= intervals["ratio, paired"][0]:.1f =} to
+# {= intervals["ratio, paired"][1]:.1f =} if we use the differences in *the same* building. This is a
+# **paired comparison**. Both versions also received the same readings, with the same noise: *common
+# random numbers*.
+
+# %% [markdown] slideshow={"slide_type": "subslide"} answers="16-paired"
+# These are **t intervals**: they assume normally distributed logarithms, and they account for a standard
+# deviation that is estimated from only five numbers. The **bootstrap** needs no distribution: it draws
+# many samples from the sample, with replacement. How often do both intervals contain the true mean?
+
+# %% slideshow={"slide_type": "fragment"} answers="16-paired" tags=["nbval-check-output", "nearly"]
+rng = np.random.default_rng(0)
+for size in (5, 30):
+    samples = rng.standard_normal((4000, size))  # the true mean is 0
+    shares = rng.multinomial(size, np.full(size, 1 / size), 1000) / size  # of each number
+    ends = {
+        "t": ttest_1samp(samples, 0, axis=1).confidence_interval(),
+        "bootstrap": np.quantile(samples @ shares.T, [0.025, 0.975], axis=1),
+    }
+    for name, (low, high) in ends.items():
+        share = np.mean((low < 0) & (high > 0))
+        print(f"{size:2} worlds, {name:>9}: {100 * share:.0f} %")
+
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="16-paired"
+# With five buildings, the intervals of this (percentile) bootstrap are too narrow. Use it for larger
+# samples: a contest compares students by a bootstrap of 35 worlds.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Draw two lists of five numbers at the board, and cover the lines between them. Ask for a
-# verdict. Then draw the lines. A class that has met the paired t-test will call it out.
+# *For the lecturer:* Write the two lists of five errors on the board, without the lines between the
+# pairs, and ask which version is better. Then draw the lines. Five buildings are few: a two-sided sign
+# test with five of five gives p = 1/16, so this test can never reach 0.05 here.
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
-# ## Ablation: one thing at a time
-#
-# A SLAM has parts, and you will have built each of them with effort. Which of them helps? Take out **one**,
-# leave everything else, and drive the same worlds. Our five variants are such a row, from nothing to all.
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# **Your turn.** The classical paired test is the **paired t-test**. Its statistic $t$ is the mean of
+# the differences divided by its standard error, which is the standard deviation of the differences
+# (`ddof=1`) divided by √n. The test assumes independent, normally distributed differences. Compute $t$
+# for the logarithms.
 
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output", "nearly"]
-print(f"{'':>9} {'1 m':>7} {'5 m':>7} {'20 m':>7}   map")
-for name in NAMES:
-    found = [a.judge(own[name]).measures for a, own in zip(arenas, drives, strict=True)]
-    over = np.mean([m.errors for m in found], axis=0)
-    print(
-        f"{name:>9}",
-        *(f"{error:7.3f}" for error in over),
-        f"{np.mean([m.map for m in found]):5.2f}",
-    )
+# %% slideshow={"slide_type": "fragment"} tags=["your-turn"]
+d = without - with_loops
+t = ...  # from d
+compare(t, ttest_rel(without, with_loops).statistic)
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Read it from top to bottom. A matcher that pairs every point, `plain`, is worse than the wheels:
-# these buildings have doors, and what only one of two scans has seen must not be paired. With its
-# safeguards, as in `icp`, matching brings the errors over 20 m down from the
-# {= np.mean(e["odometry"]):.1f =} m of the wheels to {= np.mean(e["icp"]):.2f =} m. Loops take away
-# more than half of what `graph` has left without them, and hardly show over 1 m. A part that shows
-# nowhere can go: it costs time, and one day it will break.
+# <details><summary>Answer</summary>
 #
-# Decide *before* you look which worlds and which number will settle the question.
+# ```python
+# d = without - with_loops
+# t = d.mean() / (d.std(ddof=1) / np.sqrt(len(d)))
+# ```
+#
+# The paired test gives p = {= tests["ratio, paired"].pvalue:.3f =}. An unpaired t-test (Welch) gives p =
+# {= tests["ratio, unpaired"].pvalue:.2f =} for the same ten numbers.
+# </details>
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
-# ## The best of many
+# ## Ablation
 #
-# Suppose that you try many versions, and none of them is truly better than another. Their scores still
-# differ, by luck of the worlds. You keep the best one, and its score is what you tell your friends.
+# A SLAM has many parts. Which of these parts reduce the error? An **ablation** removes **one** part,
+# keeps all other parts, and runs in the same worlds. A comparison of the three systems `odometry`,
+# `icp` and `graph` is *no* ablation, because they differ in many parts. But each of our three variants
+# lacks one part. The **distance gate** of `icp` rejects correspondences whose points are too far apart;
+# its **normal gate** rejects correspondences whose walls have different directions.
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output", "nearly"]
+print(f"{'':>22} {'1 m':>7} {'5 m':>7} {'20 m':>7}   map")
+for name in NAMES:
+    found = [a.judge(own[name]).measures for a, own in zip(arenas, runs, strict=True)]
+    row = " ".join(f"{error:7.3f}" for error in np.mean([m.errors for m in found], axis=0))
+    print(f"{name:>22} {row} {np.mean([m.map for m in found]):5.2f}")
+for name in VARIANTS:
+    test = ttest_rel(np.log(over_20[name]), np.log(over_20[name.split(",")[0]]))
+    low, high = np.exp(test.confidence_interval())
+    print(f"{name}: error over 20 m times {low:.2f} to {high:.2f}")
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# Without the distance gate, the error of `icp` over 20 m is
+# {= np.mean(over_20["icp, no distance gate"]):.1f =} m, not far below the
+# {= np.mean(over_20["odometry"]):.1f =} m of odometry: these buildings have doors, and points that
+# appear in only one of the two scans must not get correspondences. Loop closing more than halves the
+# error of `graph` over 20 m, and has hardly any effect over 1 m. (`graph` without loops also lacks
+# relocalisation, but no robot is kidnapped in these worlds.) We observe no effect of the normal gate
+# here: its interval contains 1.
+#
+# A part without an effect still needs maintenance, so you may want to remove this part. But five
+# buildings without people and without lost scans are a small sample. Remove a part only if it also has
+# no effect in the other families of worlds. Choose the worlds and the metric for this decision *before*
+# you see the results.
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=8
+# ## The best of many: selection bias and generalisation
+#
+# Suppose that you try many versions that are all equally good. Their scores still differ by chance,
+# because the worlds are random. You choose the version with the best score, and report this score.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "16-best",
-    "Fifty versions are equally good. The luck of the worlds moves each score by a standard deviation of "
-    "3 points. **By how much will the best of the fifty seem better than it is?**",
+    "Fifty versions are equally good. Their scores vary independently by chance, with a standard deviation of 3 "
+    "points. The largest of fifty independent standard normal numbers is 2.25 on average. **By how many points does "
+    "the best score exceed the true score on average?**",
     {
-        "by nothing: luck cancels": "it cancels in the mean of all fifty, not in the one that was chosen "
-        "*because* it was lucky.",
-        "by about 3 points": "that is how far a single score lies off, give or take. The largest of fifty lies "
-        "farther out.",
-        "by about 7 points": "the largest of fifty normal numbers lies 2.2 standard deviations out on average.",
+        "by 0 points: chance cancels": "chance cancels in the mean of all fifty scores, but the chosen score is the "
+        "largest of them.",
+        "by about 3 points": "this is the standard deviation of a single score. The largest of fifty scores is "
+        "farther away from the mean.",
+        "by about 7 points": "2.25 standard deviations of 3 points are 6.75 points.",
     },
     right="by about 7 points",
 )
 
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# ### Correlated scores
+#
+# The scores of versions that run in the *same* worlds are correlated. In our five buildings, the
+# logarithms of the errors of `graph` over 20 m with and without loops have the sample correlation
+# {= np.corrcoef(without, with_loops)[0, 1]:.2f =}. If the scores have the standard deviation $\sigma$
+# and all pairs of scores have the same correlation $\varrho \ge 0$, we can write each score as
+#
+# $$s_k = \sigma \left(\sqrt{\varrho}\; c + \sqrt{1 - \varrho}\; \varepsilon_k\right), \tag{16.4}$$
+#
+# with a common part $c$ and an individual part $\varepsilon_k$, both standard normal. The common part
+# is the same for all versions, so only the individual parts determine the best version.
 
-# %% slideshow={"slide_type": "subslide"} answers="16-best"
-STUDENTS, SPREAD = 1000, 15.0  # who try; of a version's points between worlds
+
+# %% slideshow={"slide_type": "fragment"}
+def luck_of_best(versions, worlds, correlation, students=1000, spread=15.0):
+    """The bias of the best score among equally good versions, for each student [points].
+
+    spread : standard deviation of a version's points between worlds"""
+    rng, sigma = np.random.default_rng(1), spread / np.sqrt(worlds)
+    common, own = rng.standard_normal((students, 1)), rng.standard_normal((students, versions))
+    scores = sigma * (np.sqrt(correlation) * common + np.sqrt(1 - correlation) * own)
+    return scores.max(axis=1)
 
 
-# %% slideshow={"slide_type": "fragment"} answers="16-best" tags=["folded"]
-def best_of(versions, worlds):
-    """How much better the best of some equally good versions seems to each student."""
-    luck = np.random.default_rng(1).standard_normal((STUDENTS, versions))
-    luck = luck * SPREAD / np.sqrt(worlds)
-    best = luck.max(axis=1)
-    fig, ax = views.chart("points that the best one seems better", "students", size=(9, 4))
+# %% slideshow={"slide_type": "fragment"} tags=["folded"]
+def best_of(versions, worlds, correlation):
+    """Histogram of the bias of the best score over the students."""
+    best = luck_of_best(versions, worlds, correlation)
+    fig, ax = views.chart("bias of the best score [points]", "students", size=(9, 4))
     ax.hist(best, np.arange(-15, 45, 1), color=views.COLOURS["corrected"])
-    ax.set(
-        title=f"best of {versions}, {worlds} worlds: {best.mean():.1f} points by luck",
-        ylim=(0, 420),
-    )
+    title = f"best of {versions}, {worlds} worlds, ϱ = {correlation:g}: mean bias {best.mean():.1f} points"
+    ax.set(title=title, ylim=(0, 420))
     return fig
 
 
-# %% slideshow={"slide_type": "fragment"} answers="16-best"
+# %% slideshow={"slide_type": "fragment"}
 views.explore(
     best_of,
-    lambda versions, worlds: (
-        f"Histogram over {STUDENTS} students of what the best of {versions} equally good versions seems better in "
-        f"{worlds} worlds: all by luck."
+    lambda versions, worlds, correlation: (
+        f"Histogram over the students of the bias of the best score among {versions} equally good versions "
+        f"in {worlds} worlds, {luck_of_best(versions, worlds, correlation).mean():.1f} points on average."
     ),
     versions=(1, 100, 50),
     worlds=(1, 100, 25),
+    correlation=(0.0, 1.0, 0.0),
 )
 
-# %% [markdown] slideshow={"slide_type": "fragment"} answers="16-best"
-# In one world a version's points vary by 15 here, so in 25 worlds its score varies by 3. With one version
-# nothing is gained by luck; with fifty, 7 points; in few worlds far more. More worlds help, fewer tries help,
-# and one thing helps for certain: **a world that you have not used for choosing**.
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# Here the points of a version have σ = 15 in one world, so the score over 25 worlds has σ = 3. The
+# score of a single version has no bias, but the best of fifty independent scores has a bias of 7
+# points. With few worlds the bias is far larger, and with correlated scores it is smaller. This effect
+# is called **selection bias** (also *winner's curse*, a problem of *multiple comparisons*).
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# ### Worlds that nobody has seen
-#
-# - Choose by some practice worlds, say `seed=1`, as often as you like. Then measure the score in
-#   others, once.
-# - A contest draws its worlds from bits that nobody knows beforehand. A hash of these bits is
-#   published first, so that nobody can choose them afterwards either.
-# - A board that is open for weeks can be climbed by luck: hand in fifty versions, and keep the
-#   best. The **Ladder** shows a new score only where it is better by more than luck, and otherwise
-#   the old one.
+# **Your turn.** How large is the selection bias for the best of fifty versions over 25 worlds, if their
+# scores have the correlation 0.8? Use (16.4) and the value 2.25 from the question. The check compares
+# your result with the simulated bias.
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
-# ## What to try first
+# %% slideshow={"slide_type": "fragment"} tags=["your-turn"]
+bias = ...  # [points]
+compare(bias, luck_of_best(50, 25, 0.8, students=4000).mean(), tolerance=0.06)
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# <details><summary>Answer</summary>
 #
-# 1. **Drive the template** and look at the picture. Know the wheels' errors before you mend them.
-# 2. **Match each scan with the last ones**, beginning where the wheels say; leave out pairs that lie far
-#    apart. This is the largest step of all, as the table has shown.
-# 3. **Keep keyframes**, one every metre or so. Matching with the scan before gathers the noise of every match.
-# 4. **Doubt a match.** In a bare corridor it slides along the walls; after lost scans it may begin too
-#    far off. Then believe the wheels for a step.
-# 5. **Close loops** with a graph, and give its poses back in `trajectory()`.
-# 6. **Claim a covariance** last, when your errors have become what they will be.
+# ```python
+# bias = 3 * np.sqrt(1 - 0.8) * 2.25
+# ```
+#
+# The common part has mean zero. If all versions run in the same worlds, the comparison is fair, and the
+# bias is smaller.
+# </details>
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# ### And what hurts
+# ### Validation worlds and test worlds
 #
-# | it happens | what it looks like | try |
+# The **generalisation** of a program is its performance in worlds that were not used to choose or to
+# tune the program. **Overfitting** means tuning a program to the peculiarities of certain worlds: the
+# score in these worlds is high, but the generalisation is poor. The remedy is to measure the score in
+# worlds that were not used for any choice.
+#
+# - **Validation set:** use some practice worlds, for example `seed=1`, for all your choices.
+# - **Test set** (*hold-out*): measure the score once, in other worlds, and change nothing afterwards.
+# - A contest draws its test worlds from random bits that nobody knows beforehand. A hash of these bits
+#   is published first, so the organiser cannot change the bits later (*commit and reveal*).
+# - On a benchmark that is open for weeks, a student who submits fifty versions and uses the best score
+#   causes selection bias again. The **Ladder** shows a new score only if it exceeds the best score so
+#   far by more than a fixed step. Otherwise it repeats the best score so far.
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=4
+# ## Recommended steps
+#
+# 1. **Run the template** and look at the figure. Examine the errors of odometry before you correct
+#    them.
+# 2. **Match each scan with previous scans**, with odometry as the initial guess; reject correspondences
+#    whose points are far apart. In our table `icp`, which matches each scan with the previous scan,
+#    gives the largest improvement.
+# 3. **Store keyframes**, about one per metre, and match with them. If you match each scan with the
+#    previous scan only, the noise of all matches accumulates.
+# 4. **Reject weak matches.** In a bare corridor a match can have a large error along the walls; after
+#    lost scans its initial guess may be too inaccurate. In both cases, use odometry for this step.
+# 5. **Close loops** with a pose graph, and return its poses in `trajectory()`.
+# 6. **Report a covariance** at the end, when your errors no longer change.
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# ### Typical faults
+#
+# | fault | symptom | remedy |
 # | --- | --- | --- |
-# | a false loop | the whole map folds at once | verify twice, weigh it down (lesson 15) |
-# | people walk by | walls with hair | drop pairs that do not fit |
-# | ranges 1 % too long | all is well over 1 m, bent over 20 m | compare with the wheels' metres |
-# | carried away | two maps on top of each other | search the whole map for the scan |
-# | out of time | the last worlds are lost | thin the points, match with less |
+# | false loop closure | the whole map is suddenly distorted | verify twice, use a robust kernel (lesson 15) |
+# | walking people | blurred walls, points in free space | reject correspondences that do not fit |
+# | ranges 1 % too long | the map is 1 % too large; errors at all lengths | compare with the distances from odometry |
+# | kidnapped robot | two maps on top of each other | match the scan with the whole map |
+# | time limit exceeded | the last worlds get no points | reduce the number of points, and match with fewer points |
 #
-# Look at the *first* moment at which things go wrong: most of what goes wrong later only follows from it.
+# Find the *first* time at which the error grows: most later errors are consequences of this first
+# error.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# ### Carried away
+# ### The kidnapped robot
 #
-# The odometry does not notice it, but the scan does. Match it with what was seen lately, beginning where the
-# wheels lead, and count the share of its points that then lie near a wall. In five buildings of the family
-# `kidnapped` it was less than a fifth for the first scan after the jump. In ten other
-# buildings, with people or lost scans in them, it was more than a third for every scan, unless scans
-# had been lost just before.
+# In the worlds of the family `kidnapped` the robot is carried to another place. Odometry does not
+# measure this jump, but the scan changes: match the new scan with recent scans, and compute the share
+# of its points that then lie near a wall. A small share indicates a jump, but people and lost scans
+# also reduce the share. Plot the share over a run with a jump and over a run without a jump before you
+# choose a threshold.
 #
-# The project's solution begins a second map at such a scan. It tries each new keyframe at all places of the
-# first map, in 24 directions, and when two keyframes in a row have been found at places that agree, it joins the maps. In
-# those five buildings this earns 100 points; without it the same code had between 40 and 60.
+# After a jump, begin a second map. The task is then **relocalisation**, a *global localisation* in the
+# first map: match a new keyframe with the first map, from many positions and headings. Accept a result
+# only if the next keyframe agrees, and then combine the maps. `practise(MySlam, ["kidnapped"], seed=1)`
+# in the exercise shows the gain.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=1
 # ## What you can do now
 #
-# You can say how good a SLAM is, over short pieces and long ones, by its map and by what it says
-# about its own errors; compare two versions fairly; find the part that helps; and avoid being
-# fooled by the best of many.
+# You can evaluate a SLAM by its relative pose errors, its map and its covariance; compare two versions
+# fairly; determine the effect of a part by an ablation; and avoid selection bias.
 #
 # **Literature.** R. Kümmerle and others, "On measuring the accuracy of SLAM algorithms", Autonomous Robots, 2009:
-# relations. A. Geiger, P. Lenz, R. Urtasun, "Are we ready for autonomous driving?", CVPR 2012: errors over lengths,
-# and hidden truth. B. Efron, "Bootstrap methods: another look at the jackknife", Annals of Statistics, 1979. A. Blum,
-# M. Hardt, "The Ladder: a reliable leaderboard for machine learning competitions", ICML 2015. Read Kümmerle
-# next.
+# relations. J. Sturm and others, "A benchmark for the evaluation of RGB-D SLAM systems", IROS 2012: ATE and RPE.
+# A. Geiger, P. Lenz, R. Urtasun, "Are we ready for autonomous driving?", CVPR 2012: errors over lengths, and a
+# hidden test set. B. Efron, "Bootstrap methods: another look at the jackknife", Annals of Statistics, 1979.
+# A. Blum, M. Hardt, "The Ladder: a reliable leaderboard for machine learning competitions", ICML 2015. Read
+# Kümmerle next.
 #
-# **What comes next:** [the project](../exercises/ex16_your_own_slam.ipynb). You start from a class
-# that already drives, pass three milestones, and end in worlds that nobody has seen.
+# **What comes next:** [the project](../exercises/ex16_your_own_slam.ipynb). You start from a given
+# class that runs, reach three milestones, and finally run your SLAM in unknown worlds.

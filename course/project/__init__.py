@@ -1,4 +1,4 @@
-"""The final project: the template that students begin with, a solution, and other estimators.
+"""The final project: the students' template, a solution, and reference estimators.
 
-They stand on numpy, scipy and ``slamlab.geometry`` alone, as a student's has to.
+They import only numpy, scipy and ``slamlab.geometry``, as a student's estimator must.
 """

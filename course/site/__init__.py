@@ -1,1 +1,1 @@
-"""Site of the course: lessons, exercises and guides as pages, made of what notebooks store."""
+"""Web site of the course: lessons, exercises and guides as pages, and the API reference."""

@@ -1,15 +1,15 @@
-"""Command ``python -m course.site``: build the site, then look through what was built."""
+"""Command ``python -m course.site``: build the site, then check it."""
 
 import argparse
 import sys
 from pathlib import Path
 
-from course.site import building, looking
+from course.site import building, site_checks
 from course.source import ROOT
 
 
 def main(argv=None):
-    """Run the command line; returns its exit code."""
+    """Run the command line and return its exit code."""
     parser = argparse.ArgumentParser(prog="python -m course.site", description=__doc__)
     parser.add_argument("--out", type=Path, default=ROOT / "site", help="where to (site/)")
     options = parser.parse_args(argv)
@@ -18,9 +18,9 @@ def main(argv=None):
     except building.SiteError as error:
         print(error, file=sys.stderr)
         return 1
-    problems = failed + looking.problems(options.out)
+    problems = failed + site_checks.problems(options.out)
     print(*problems, sep="\n", end="\n" if problems else "", file=sys.stderr)
-    print(f"{options.out}: {looking.size(options.out) / 1e6:.1f} MB, begin with index.html")
+    print(f"{options.out}: {site_checks.size(options.out) / 1e6:.1f} MB, start at index.html")
     return 1 if problems else 0
 
 

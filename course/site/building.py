@@ -1,4 +1,4 @@
-"""Build the site: pages are prepared in a folder of their own, then set by Sphinx."""
+"""Build the site: prepare the pages in a folder, then run Sphinx on it."""
 
 import re
 import shutil
@@ -10,31 +10,36 @@ from course.site import preparing
 from course.source import ROOT
 
 HERE = Path(__file__).parent
-WORK = ROOT / ".site"  # what the next build takes over: formulas, pages that did not change
-_LEVEL = 'role="heading" aria-level="2"'
+WORK = ROOT / ".site"  # cache for the next build: formulas, unchanged pages
+_MARKUP = {  # what confuses screen readers: headings without a level, landmarks without a name
+    'class="caption" role="heading"': 'class="caption" role="heading" aria-level="2"',
+    '<aside class="sidebar-drawer"': '<aside aria-label="Pages" class="sidebar-drawer"',
+    '<aside class="toc-drawer': '<aside aria-label="On this page" class="toc-drawer',
+}
 
 
 class SiteError(Exception):
-    """The site cannot be built; the text says why and what to do."""
+    """The site cannot be built; the message states why and what to do."""
 
 
 def build(out, work=WORK, rendered=None, whole=True):
-    """Build the site from what notebooks store; only what moves is run, and kept for the next time.
+    """Build the site from the stored notebooks; only films and sliders are rendered and cached.
 
     Parameters
     ----------
-    out : Path, folder to be written; what stood there goes
-    work : Path, folder for what the next build takes over: formulas, pages read, films
-    rendered : collection of str or None, numbers of the lessons whose films and sliders are wanted
+    out : Path, folder to write; its old contents are deleted
+    work : Path, cache for the next build: formulas, parsed pages, films
+    rendered : collection of str or None, numbers of the lessons whose films and sliders are
+        rendered; None for all
     whole : bool, False for the lessons alone, as the students' pack has them
 
     Returns
     -------
-    list of str, which lessons could not be rendered, and why
+    list of str, lessons that could not be rendered, with the reason
 
     Raises
     ------
-    SiteError : no KaTeX, or Sphinx warns of something
+    SiteError : KaTeX is missing, or Sphinx reports a warning
     """
     modules = katex_modules(work)
     place = work / ("site" if whole else "pack")
@@ -52,25 +57,26 @@ def build(out, work=WORK, rendered=None, whole=True):
         cwd=ROOT,
     )
     if done.returncode:
-        raise SiteError("Sphinx has something to say: see above")
-    _mend_lists(html)
+        raise SiteError("Sphinx reported warnings or errors; they are printed above")
+    _correct_markup(html)
     shutil.rmtree(out, ignore_errors=True)
     shutil.copytree(html, out, ignore=shutil.ignore_patterns(".buildinfo*", "objects.inv"))
     (out / ".nojekyll").touch()  # GitHub Pages leaves folders with _ away otherwise
     return failed
 
 
-def _mend_lists(folder):
-    """Mend what screen readers stumble over: captions without a level, lists right within lists."""
+def _correct_markup(folder):
+    """Correct markup that confuses screen readers: see ``_MARKUP``; and nested lists."""
     for path in folder.rglob("*.html"):
         text = path.read_text(encoding="utf-8")
-        mended = text.replace('class="caption" role="heading"', f'class="caption" {_LEVEL}')
-        mended = re.sub(r"</li>\s*<ul>|</ul>(?=\s*(?:<li>|</ul>))", "", mended)
-        path.write_text(mended, encoding="utf-8")
+        for found, corrected in _MARKUP.items():
+            text = text.replace(found, corrected)
+        text = re.sub(r"</li>\s*<ul>|</ul>(?=\s*(?:<li>|</ul>))", "", text)
+        path.write_text(text, encoding="utf-8")
 
 
 def katex_modules(work):
-    """The folder of npm's modules with KaTeX in it, as the lock file has it; fetched where missing.
+    """Return the folder of npm modules with the locked KaTeX; download it if it is missing.
 
     Parameters
     ----------
@@ -82,7 +88,7 @@ def katex_modules(work):
 
     Raises
     ------
-    SiteError : no Node.js, or KaTeX cannot be fetched
+    SiteError : Node.js is missing, or KaTeX cannot be downloaded
     """
     place, lock = work / "node", (HERE / "package-lock.json").read_text(encoding="utf-8")
     modules = place / "node_modules"
@@ -91,7 +97,7 @@ def katex_modules(work):
         return modules
     npm = shutil.which("npm")
     if not npm:
-        raise SiteError("formulas are set by KaTeX, which needs Node.js: install nodejs and npm")
+        raise SiteError("KaTeX, which sets the formulas, needs Node.js: install nodejs and npm")
     shutil.rmtree(place, ignore_errors=True)
     place.mkdir(parents=True)
     for name in ("package.json", "package-lock.json"):
@@ -104,12 +110,12 @@ def katex_modules(work):
     )
     if done.returncode:
         shutil.rmtree(place)
-        raise SiteError(f"KaTeX could not be fetched by npm:\n{done.stderr[-1000:]}")
+        raise SiteError(f"npm could not download KaTeX:\n{done.stderr[-1000:]}")
     return modules
 
 
 def _ship_katex(modules, folder):
-    """Copy what pages need of KaTeX: its style sheet and its fonts in the format of today."""
+    """Copy the style sheet and fonts (WOFF2) of KaTeX into the folder of the pages."""
     dist = modules / "katex" / "dist"
     (folder / "fonts").mkdir(parents=True, exist_ok=True)
     shutil.copy(dist / "katex.min.css", folder)

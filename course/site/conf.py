@@ -1,4 +1,4 @@
-"""Settings of Sphinx for the site; ``course.site.building`` adds what depends on the machine."""
+"""Sphinx configuration of the site; ``course.site.building`` adds machine-dependent settings."""
 
 project = "An executable SLAM course"
 author = "the slamlab authors"
@@ -7,7 +7,7 @@ language = "en"
 extensions = [
     "course.site.docstrings",
     "course.site.katex",
-    "course.site.symbols",
+    "course.site.symbol_search",
     "myst_nb",
     "sphinx.ext.autodoc",
     "numpydoc",
@@ -22,7 +22,7 @@ html_title = project
 html_math_renderer = "katex"
 html_copy_source = False
 html_show_sourcelink = False
-html_show_search_summary = False  # is fetched, which pages opened as files may not
+html_show_search_summary = False  # pages opened as files cannot fetch it
 html_static_path = ["_static"]
 html_css_files = ["katex/katex.min.css", "player.css", "site.css"]
 html_js_files = [(name, {"defer": "defer"}) for name in _SCRIPTS]

@@ -1,9 +1,13 @@
-"""Extension of Sphinx: docstrings are plain text; |l| and a*b in them are no markup."""
+"""Sphinx extension that escapes docstrings as plain text: ``|l|`` and ``a*b`` are not markup.
+
+A page omits the reading order of files in a module's docstring, and all text after this list.
+"""
 
 import re
 
 import numpy as np
 
+_ORDER = "Read in this order"
 _LITERAL = re.compile(r"(``.+?``|:\w+:`[^`]+`)")
 
 
@@ -17,11 +21,13 @@ def setup(app):
 
 
 def _plain(app, what, name, obj, options, lines):
+    if what == "module":
+        del lines[next((n for n, line in enumerate(lines) if _ORDER in line), len(lines)) :]
     lines[:] = ["".join(map(_escaped, _LITERAL.split(line))) for line in lines]
 
 
 def _skipped(app, what, name, obj, skip, options):
-    """NumPy's own functions, as defaults of ours, have no signature."""
+    """Skip NumPy functions that are defaults of parameters, because they have no signature."""
     return True if isinstance(obj, np.ufunc) else None
 
 

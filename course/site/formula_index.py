@@ -1,10 +1,11 @@
-"""Formula → lesson → code → test: a table made of numbered equations and of docstrings."""
+"""Index of formulas: each numbered equation with its lesson, code and tests."""
 
 import ast
 import re
 from functools import cache
 
 from course.equations import DISPLAY, TAG
+from course.site import public_names
 from course.source import ROOT, file_name, sources
 
 _NAMED = re.compile(r"[Ee]quations? ((?:\(\d\d\.\d+\)(?:, | and )?)+)")
@@ -12,14 +13,14 @@ _NUMBER = re.compile(r"\((\d\d\.\d+)\)")
 _HEAD = """\
 # Formula, lesson, code, test
 
-Every numbered formula of the lessons, the functions of the package that compute it, and the tests that hold
-it. A function's own page says shapes and units.
+This page lists each numbered formula of the lessons, the functions of the library that compute it, and the tests of
+these functions. The pages of public functions give shapes and units.
 
 """
 
 
 def page():
-    """The page, Markdown.
+    """Return the page as Markdown.
 
     Returns
     -------
@@ -38,7 +39,7 @@ def page():
 
 
 def equations(path):
-    """The numbered equations of a lesson, each (number, LaTeX without the number).
+    """Return the numbered equations of a lesson, each (number, LaTeX without the number).
 
     Parameters
     ----------
@@ -55,7 +56,7 @@ def equations(path):
 
 @cache
 def functions():
-    """Number of an equation to the public names whose docstring says "Equation (NN.k)".
+    """Map the number of an equation to the public names that cite "Equation (NN.k)".
 
     Returns
     -------
@@ -84,12 +85,14 @@ def _entry(number, formula, names):
     lines = [f"**({number})**\n\n$$ {formula} $$\n"]
     for name in names:
         module, function = name.rsplit(".", 1)
-        room = module.split(".")[1]
+        component = module.split(".")[1]
         tests = [
             file
             for file, words in _tests().items()
-            if {function, module.rsplit(".", 1)[1]} <= words or {function, room} <= words
+            if {function, module.rsplit(".", 1)[1]} <= words or {function, component} <= words
         ]
-        told = ", ".join(f"`{file}`" for file in tests[:3])
-        lines.append(f"- [`{name}`](api/{room}.md)" + (f", held by {told}" if told else ""))
+        named = ", ".join(f"`{file}`" for file in tests[:3])
+        page = public_names.page_of(module, function)
+        linked = f"[`{name}`](api/{page}.md)" if page else f"`{name}`"
+        lines.append(f"- {linked}" + (f", tested by {named}" if named else ""))
     return "\n".join(lines) + "\n"

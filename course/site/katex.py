@@ -1,6 +1,6 @@
-"""Extension of Sphinx: formulas are set by KaTeX while the site is built, all in one go.
+"""Sphinx extension that typesets all formulas with one call of KaTeX during the build.
 
-A page then needs no JavaScript for them; MathML goes along, for screen readers.
+Pages then need no JavaScript for formulas; MathML is included for screen readers.
 """
 
 import hashlib
@@ -31,7 +31,7 @@ def setup(app):
 
 
 def _typeset_all(app, env):
-    """Set every formula of every page that is not known from before."""
+    """Typeset each formula that is not cached."""
     known = _read(app)
     wanted = {}
     for name in env.found_docs:
@@ -51,7 +51,7 @@ def _typeset_all(app, env):
 
 
 def _formulas(doctree):
-    """Each formula of a page, (LaTeX, whether displayed), and its line."""
+    """Yield each formula of a page as (LaTeX, whether displayed) with its line."""
     for node in doctree.findall(lambda node: isinstance(node, nodes.math | nodes.math_block)):
         yield (node.astext(), isinstance(node, nodes.math_block)), node.line
     for node in doctree.findall(_is_derivation):
@@ -64,7 +64,7 @@ def _is_derivation(node):
 
 
 def _set_derivations(app, doctree, _):
-    """Put formulas in place of the LaTeX of derivations, which notebooks store as HTML."""
+    """Typeset the LaTeX formulas of derivations, which notebooks store as HTML."""
 
     def formula(found):
         made = app.env.katex_html.get(_key(html.unescape(found[1]), False), found[0])
@@ -75,7 +75,7 @@ def _set_derivations(app, doctree, _):
 
 
 def _typeset(formulas, modules):
-    """HTML or error of formulas, each (LaTeX, whether displayed); one process for all."""
+    """Typeset each formula (LaTeX, whether displayed) in one process; return its HTML or error."""
     command = ["node", str(HERE / "typeset.mjs"), modules]
     done = subprocess.run(
         command, input=json.dumps(formulas), capture_output=True, text=True, encoding="utf-8"

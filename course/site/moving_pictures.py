@@ -1,4 +1,4 @@
-"""In place of ``views.explore`` and ``views.live``: pictures of a slider's values, and films."""
+"""Replace ``views.explore`` with pictures for a slider's values, and ``live.watch`` with films."""
 
 import base64
 from math import ceil
@@ -9,12 +9,12 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from PIL import Image
 
 from course.site.steady_layout import SteadyLayout
-from slamlab import films
+from slamlab.live import films
+from slamlab.live.drive_control import velocities
+from slamlab.live.estimator_run import EstimatorRun
 from slamlab.views import sliders
-from slamlab.views.arrangement import arrange
-from slamlab.views.figure_words import words
-from slamlab.views.live.drive_commands import velocities
-from slamlab.views.live.stepper import Stepper
+from slamlab.views.alt_text import describe
+from slamlab.views.figure_layout import arrange
 
 MOST_VALUES = 21  # of a slider
 MOST_OF_SEVERAL = 13  # of each, where there are several
@@ -31,21 +31,21 @@ class Renderer:
     ----------
     folder : Path, for pictures and films
 
-    ``cell`` is the id of the cell that runs, ``told`` what was rendered, by the cell's id: list of
+    ``cell`` is the id of the running cell. ``rendered`` lists its renderings by the cell's id, each
     ``{"controls": [...]}`` or ``{"film": file, "alt": text}``.
     """
 
     def __init__(self, folder):
-        self._folder, self.cell, self.told = folder, "", {}
+        self._folder, self.cell, self.rendered = folder, "", {}
 
     def explore(self, draw, alt, play=None, **controls):
-        """Render every value of each control, the others as they first stand."""
+        """Render every value of each control, with the other controls at their first values."""
         widgets = {name: sliders._control(name, given) for name, given in controls.items()}
         first = {name: widget.value for name, widget in widgets.items()}
-        told, known, layout = [], {}, SteadyLayout()
+        rendered, known, layout = [], {}, SteadyLayout()
         usual = MOST_VALUES if len(widgets) == 1 else MOST_OF_SEVERAL
         for name, widget in widgets.items():
-            values, said = values_of(widget, MOST_PLAYED if name == play else usual)
+            values, words = values_of(widget, MOST_PLAYED if name == play else usual)
             shown = []
             for value in values:
                 chosen = first | {name: value}
@@ -53,32 +53,32 @@ class Renderer:
                 if key not in known:
                     known[key] = self._picture(draw(**chosen), alt, chosen, len(known), layout)
                 shown.append(known[key])
-            told.append(
+            rendered.append(
                 {
                     "name": widget.description or name,
                     "kind": "range" if hasattr(widget, "max") else "choice",
                     "first": values.index(first[name]),
-                    "words": said,
+                    "words": words,
                     "pictures": [file for file, _ in shown],
                     "alts": [text for _, text in shown],
                 }
             )
-        self._tell({"controls": told})
+        self._add({"controls": rendered})
 
     def live(
         self, source, estimator, alt, *, script=(), beside=None, extra=None, note=None,
         curves=None, truth=True, colours=None, title="", seed=0, tops=(0.4, 0.6),
         size=(720, 480), steps=20, **_,
     ):  # fmt: skip
-        """Film the run of each source that plays by itself, and the commands that follow.
+        """Record a film of each source that needs no input, with the commands that follow.
 
         Returns
         -------
-        namespace with the ``pair`` of the first source, which later code of a lesson may look at
+        namespace with the ``pair`` of the first source, which later code of a lesson may read
         """
         given, steppers = source if isinstance(source, dict) else {"": source}, []
         for number, (name, each) in enumerate(given.items()):
-            stepper = Stepper(each, estimator, beside, extra, note, curves, truth, colours)
+            stepper = EstimatorRun(each, estimator, beside, extra, note, curves, truth, colours)
             steppers.append(stepper)
             if number and not _plays(each, seed):
                 continue
@@ -96,40 +96,40 @@ class Renderer:
                     stepper.drive(velocities(command, tops))
                     film.add(stepper.scene())
             stepper.close()
-            self._tell({"film": shipped(file), "title": called, "alt": alt})
+            self._add({"film": shipped(file), "title": called, "alt": alt})
         return SimpleNamespace(pair=steppers[0])
 
     def _picture(self, fig, alt, chosen, number, layout):
-        """A figure as a lossless WebP, and its alternative text."""
-        said = alt(**chosen) if callable(alt) else alt
+        """Return a figure as a lossless WebP image, and its alternative text."""
+        text = alt(**chosen) if callable(alt) else alt
         file = self._folder / f"{self._stem()}-{number}.webp"
         canvas = FigureCanvasAgg(fig)
         arrange(fig, layout)
-        fig.set_layout_engine("none")  # all has its place
-        # the notebook's are drawn for screens of two pixels; of so many pictures one has to do
+        fig.set_layout_engine("none")  # the layout is final
+        # the notebook's pictures have twice this resolution; so many pictures would be too large
         canvas.draw()  # once, where savefig would draw twice
         drawn = Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB")
         picture = drawn.quantize(PALETTE, dither=Image.Dither.NONE)
         picture.convert("RGB").save(file, "WEBP", lossless=True, quality=75, method=4)
-        return file.name, f"{words(fig)} {said.strip()}"
+        return file.name, f"{describe(fig)} {text.strip()}"
 
     def _stem(self):
-        return f"{self.cell}-{len(self.told.get(self.cell, []))}"
+        return f"{self.cell}-{len(self.rendered.get(self.cell, []))}"
 
-    def _tell(self, what):
-        self.told.setdefault(self.cell, []).append(what)
+    def _add(self, what):
+        self.rendered.setdefault(self.cell, []).append(what)
 
 
 def shipped(file):
-    """Make a film a script, which a page may load from a file, too.
+    """Convert a film to a script, which a page can load from a file.
 
     Parameters
     ----------
-    file : Path, of the film, which goes
+    file : Path, of the film, which is deleted
 
     Returns
     -------
-    str, name of the script beside
+    str, name of the script in the same folder
     """
     text = base64.b64encode(file.read_bytes()).decode()
     script = file.with_suffix(".js")
@@ -139,7 +139,7 @@ def shipped(file):
 
 
 def values_of(widget, most):
-    """Values of a control, thinned evenly, its first one among them; and their words.
+    """Return evenly spaced values of a control, including the first one, and their labels.
 
     Parameters
     ----------
@@ -174,7 +174,7 @@ def _thinned(values, most, is_first):
 
 
 def _plays(make, seed):
-    """Whether a source plays by itself: one that waits for commands or devices does not."""
+    """Whether a source needs no commands, devices or other input."""
     source = make(np.random.default_rng(seed)) if callable(make) else make
     count = len(source)
     if callable(make):

@@ -1,6 +1,5 @@
-"""Prepare the pages of the site: a folder of notebooks and Markdown that Sphinx can set."""
+"""Prepare the pages of the site: a folder of notebooks and Markdown for Sphinx."""
 
-import importlib
 import os
 import re
 from concurrent.futures import ThreadPoolExecutor
@@ -8,78 +7,83 @@ from pathlib import Path
 
 import nbformat
 
-from course.pack import without_notes
-from course.site import formula_index, gathered, rendering, start_film
-from course.site.moving_outputs import films_alone
-from course.site.pages_of_notebooks import page, without_links
-from course.source import KINDS, ROOT, file_name, sources
-from slamlab.views.player import library
+from course import literature
+from course.lecturer_cells import without_notes
+from course.site import formula_index, front_page_film, public_names, rendering
+from course.site.notebook_pages import page, without_links
+from course.site.rendered_outputs import films_alone
+from course.source import KINDS, ROOT, file_name, kind_folder, sources
+from slamlab.live.player import script_bundle
 
 HERE = Path(__file__).parent
-GUIDES = ("live", "robots", "lecturing", "grading", "contest", "architecture")
-FOLDERS = {"lessons": "notebooks", "exercises": "exercises"}
-_INTO_PROJECT = re.compile(r"(?<!!)\[([^\]]+)\]\(\.\./[^)]*\)")  # a link to a file of the project
+GUIDES = (
+    *("lessons", "your_flat", "library", "command_line", "live", "robots"),
+    *("data", "server", "lecturing", "topics", "grading", "contest", "architecture", "terms"),
+)
+FOLDERS = {"lessons": "notebooks", "exercises": "exercises", "appendices": "notebooks"}
+# a link to a file of the project that is no page of the site
+_INTO_PROJECT = re.compile(r"(?<!!)\[([^\]]+)\]\(\.\./(?!notebooks/|exercises/)[^)]*\)")
 
 
 def prepare(folder, cache, lessons_rendered=None, whole=True):
-    """Write all pages into a folder; what is as it was stays untouched, what is gone goes.
+    """Write all pages into a folder; keep unchanged files and delete obsolete files.
 
     Parameters
     ----------
     folder : Path
-    cache : Path, what was rendered before
+    cache : Path, earlier renderings
     lessons_rendered : collection of str or None, numbers of the lessons whose films and sliders are
-        wanted; None for all
+        rendered; None for all
     whole : bool, False for the lessons alone, as the students' pack has them
 
     Returns
     -------
-    list of str, which lessons could not be rendered, and why: they keep their still pictures
+    list of str, lessons that could not be rendered, with the reason; they keep their still pictures
     """
-    with ThreadPoolExecutor(1) as beside:  # it takes as long as a lesson's films
-        film = beside.submit(start_film.files, cache)
+    with ThreadPoolExecutor(1) as beside:  # it takes as long as the films of a lesson
+        film = beside.submit(front_page_film.files, cache)
         moving, failed = _moving(cache, lessons_rendered, whole)
     files = {"index.md": _start("index" if whole else "pack")} | film.result()
     files |= {f"_static/{path.name}": path.read_bytes() for path in (HERE / "static").iterdir()}
-    player = library.script(library.FILM, HERE / "static" / "films_on_page.js")
+    player = script_bundle.script(script_bundle.FILM, HERE / "static" / "films_on_page.js")
     files["_static/films_on_page.js"] = player.encode()
-    files["_static/player.css"] = library.styles().encode()
-    files |= _notebooks("lessons", moving, whole)
+    files["_static/player.css"] = script_bundle.styles().encode()
+    files |= _notebooks("lessons", moving, whole) | _notebooks("appendices", {}, whole)
     if whole:
         files |= _notebooks("exercises", {}, whole) | _guides() | _modules()
         files["formulas.md"] = formula_index.page()
-        files |= {f"{kind}.md": gathered.page(kind, _lessons_shown()) for kind in gathered.HEADS}
+        files["literature.md"] = literature.page(_lessons_shown())
     _synchronise(folder, files)
     return failed
 
 
 def lessons():
-    """Number of a lesson to the name of its notebook without suffix.
+    """Map the number of each lesson to the name of its notebook without suffix.
 
     Returns
     -------
     dict
     """
-    paths = [path for path in sources() if path.parent.name == "lessons"]
+    paths = sources(folder="lessons")
     return {path.stem[:2]: Path(file_name(path)).stem for path in paths}
 
 
 def _start(page_name):
-    """The first page, with the lists of all others."""
+    """Return the first page, with the lists of all other pages."""
     names = {kind: [] for kind in KINDS}
     for path in sources():
-        kind = path.parent.name
+        kind = kind_folder(path).name
         names[kind].append(f"{FOLDERS[kind]}/{Path(file_name(path)).stem}")
     names["guides"] = [f"guides/{name}" for name in GUIDES]
     text = (HERE / "pages" / f"{page_name}.md").read_text(encoding="utf-8")
-    text = text.replace("{{film}}", start_film.PLACE)
+    text = text.replace("{{film}}", front_page_film.PLACE)
     for kind, listed in names.items():
         text = text.replace(f"{{{{{kind}}}}}", "\n".join(listed))
     return text
 
 
 def _moving(cache, wanted, whole):
-    """What was rendered of each notebook (its stem to told and folder), and what could not be."""
+    """Return the renderings of each notebook by its stem, and the error messages of failures."""
     names = [stem for number, stem in lessons().items() if wanted is None or number in wanted]
     if not whole:  # pictures of sliders would double the pack
         names = [name for name in names if _has_film(name)]
@@ -97,21 +101,21 @@ def _moving(cache, wanted, whole):
 
 
 def _has_film(name):
-    return "views.live(" in (ROOT / "notebooks" / f"{name}.ipynb").read_text(encoding="utf-8")
+    return "live.watch(" in (ROOT / "notebooks" / f"{name}.ipynb").read_text(encoding="utf-8")
 
 
 def _notebooks(kind, moving, whole):
-    """The pages of all lessons, or of all exercises as they are handed out."""
+    """Return the pages of all lessons, or of all exercises without solutions."""
     files, known = {}, lessons()
     for path in sources():
-        if path.parent.name == kind:
+        if kind_folder(path).name == kind:
             name = f"{FOLDERS[kind]}/{file_name(path)}"
             notebook = nbformat.read(ROOT / name, as_version=4)
-            told, made = moving.get(Path(name).stem, ({}, None))
+            rendered, made = moving.get(Path(name).stem, ({}, None))
             if not whole:
-                told = films_alone(told)
-            shown = page(notebook, known, told, made.name if made else "")
-            if told:
+                rendered = films_alone(rendered)
+            shown = page(notebook, known, rendered, made.name if made else "")
+            if rendered:
                 for file in made.iterdir():
                     if file.suffix in (".webp", ".js") if whole else file.suffix == ".js":
                         files[f"_static/rendered/{made.name}/{file.name}"] = file.read_bytes()
@@ -125,7 +129,7 @@ def _notebooks(kind, moving, whole):
 
 
 def _lessons_shown():
-    """Each lesson's title, the name of its page, and what the site shows of it."""
+    """Return each lesson's title, the name of its page, and the notebook that the site shows."""
     found, known = [], lessons()
     for stem in known.values():
         name = f"notebooks/{stem}.ipynb"
@@ -135,18 +139,18 @@ def _lessons_shown():
 
 
 def _ways_to_run(name, whole):
-    """The line that leads from a page to the notebook itself."""
+    """Return the line that links a page to its notebook."""
     lab = f'<a href="http://localhost:8888/lab/tree/{name}">'
     if not whole:
-        return f"This is `{name}`: {lab}open it in your JupyterLab</a>, where `python lab.py` runs"
+        return f"This is `{name}`. {lab}Open it in your JupyterLab</a> (started by `python lab.py`)"
     return (
         f'<a href="../_static/{name}" download>Download this notebook</a> · '
-        f"{lab}open it in your JupyterLab</a>, where `make lab` runs"
+        f"{lab}Open it in your JupyterLab</a> (started by `make lab`)"
     )
 
 
 def _guides():
-    """The guides as pages: links among them stay, links into the project's files become names."""
+    """Return the guides as pages; links to files that are not pages become plain text."""
     files = {}
     for name in GUIDES:
         text = (ROOT / "docs" / f"{name}.md").read_text(encoding="utf-8")
@@ -157,38 +161,21 @@ def _guides():
 
 
 def _modules():
-    """A page for each room of the package, with what it offers at its door."""
-    rooms = sorted(
-        path.stem if path.suffix else path.name
-        for path in (ROOT / "slamlab").iterdir()
-        if not path.name.startswith("_")
-        and (path.suffix == ".py" or (path / "__init__.py").exists())
-    )
-    files = {
-        f"api/{room}.md": f"# slamlab.{room}\n\n```{{eval-rst}}\n.. automodule:: slamlab.{room}\n"
-        f"   :members:\n   :exclude-members: {', '.join(_of_others(room, rooms))}\n```\n"
-        for room in rooms
-    }
-    listed = "\n".join(rooms)
+    """Return a page for each component of the library, with its public names."""
+    files = {}
+    for component, modules in public_names.by_component().items():
+        parts = [f"# slamlab.{component}\n"]
+        for module, names in modules.items():
+            directive = f".. automodule:: {module}\n   :members: {', '.join(names)}\n"
+            parts.append(f"```{{eval-rst}}\n{directive}```\n")
+        files[f"api/{component}.md"] = "\n".join(parts)
+    listed = "\n".join(public_names.by_component())
     files["api/index.md"] = (
-        "# The package\n\nEvery room of `slamlab`, with what it offers at its door. Equations, shapes, "
-        f"units and errors stand with each function.\n\n```{{toctree}}\n:maxdepth: 1\n\n{listed}\n```\n"
+        "# The library\n\nThese pages document the public names of `slamlab`, by component in the order of the "
+        "data flow, with equations, shapes, units and errors. [The guide to the "
+        f"library](../guides/library.md) has examples.\n\n```{{toctree}}\n:maxdepth: 1\n\n{listed}\n```\n"
     )
     return files
-
-
-def _of_others(room, rooms):
-    """What a room offers that another room does, too: it is described there, once."""
-    module = importlib.import_module(f"slamlab.{room}")
-    defined = {
-        name: getattr(getattr(module, name), "__module__", None) or ""
-        for name in getattr(module, "__all__", ())
-    }
-    return sorted(
-        name
-        for name, place in defined.items()
-        if place.removeprefix("slamlab.") in set(rooms) - {room}
-    )
 
 
 def _synchronise(folder, files):

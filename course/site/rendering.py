@@ -1,7 +1,7 @@
-"""Render what moves in a lesson: its live views as films, its sliders as pictures of every value.
+"""Render the moving outputs of a lesson: live views as films, sliders as pictures of every value.
 
-A lesson is run once in a process of its own, ``python -m course.site.rendering NOTEBOOK FOLDER``, and
-then kept as long as its code stays as it is.
+A lesson is run once in a separate process, ``python -m course.site.rendering NOTEBOOK FOLDER``. The
+result is cached until the code changes.
 """
 
 import hashlib
@@ -14,21 +14,21 @@ from pathlib import Path
 
 import nbformat
 
+from classroom.coursework.folder import OFF
 from course.source import ROOT
-from slamlab.coursework.folder import OFF
 from slamlab.parallel import THREAD_VARIABLES
 
-MOVES = ("views.explore(", "views.live(")
-VERSION = 1  # of what is rendered; another one renders all anew
-TOLD = "rendered.json"  # what was rendered, by the cell's id
+MOVES = ("views.explore(", "live.watch(")
+VERSION = 1  # of the renderings; a new version renders all again
+RESULTS = "rendered.json"  # renderings by the cell's id
 
 
 class RenderingError(Exception):
-    """A lesson cannot be run; the text says which and why."""
+    """A lesson cannot be run; the message names the lesson and the cause."""
 
 
 def moving(notebook):
-    """The code cells of a notebook, if any of them moves; else none.
+    """Return the code cells of a notebook up to the last one with a moving output.
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ def moving(notebook):
 
     Returns
     -------
-    list of NotebookNode, up to the last one that moves
+    list of NotebookNode, empty if no output moves
     """
     code = [cell for cell in notebook.cells if cell.cell_type == "code"]
     last = [n for n, cell in enumerate(code) if any(word in cell.source for word in MOVES)]
@@ -44,16 +44,16 @@ def moving(notebook):
 
 
 def rendered(path, cache):
-    """What moves in a lesson, rendered now or before.
+    """Render the moving outputs of a lesson, unless they are cached.
 
     Parameters
     ----------
     path : Path, of the notebook
-    cache : Path, folder of all that was rendered; older renderings of this lesson go
+    cache : Path, folder of all renderings; older ones of this lesson are deleted
 
     Returns
     -------
-    (dict, Path) : by a cell's id what :mod:`course.site.moving_pictures` told, and the folder
+    (dict, Path) : renderings of :mod:`course.site.moving_pictures` by the cell's id, and the folder
 
     Raises
     ------
@@ -64,19 +64,19 @@ def rendered(path, cache):
     folder = cache / f"{path.stem}-{hashlib.sha256(code.encode()).hexdigest()[:16]}"
     if not cells:
         return {}, folder
-    if not (folder / TOLD).exists():
+    if not (folder / RESULTS).exists():
         for old in cache.glob(f"{path.stem}-*"):
             shutil.rmtree(old)
         folder.mkdir(parents=True)
         _render(path, folder)
-    return json.loads((folder / TOLD).read_text(encoding="utf-8")), folder
+    return json.loads((folder / RESULTS).read_text(encoding="utf-8")), folder
 
 
 def _render(path, folder):
     env = os.environ | {"MPLBACKEND": "agg", "PYTHONHASHSEED": "0", OFF: "1"}
     env |= dict.fromkeys(THREAD_VARIABLES, "1")
     env["PYTHONPATH"] = os.pathsep.join([str(ROOT), env.get("PYTHONPATH", "")])
-    if "SLAMLAB_DATA" in env:  # the lesson stands in another folder
+    if "SLAMLAB_DATA" in env:  # the lesson is in another folder
         env["SLAMLAB_DATA"] = str(Path(env["SLAMLAB_DATA"]).resolve())
     done = subprocess.run(
         [sys.executable, "-m", __name__, str(path.resolve()), str(folder.resolve())],
@@ -91,7 +91,7 @@ def _render(path, folder):
 
 
 def main(path, folder):
-    """Run a lesson's cells; what moves in them is rendered into a folder.
+    """Run a lesson's cells and render their moving outputs into a folder.
 
     Parameters
     ----------
@@ -101,15 +101,15 @@ def main(path, folder):
     from IPython.core.interactiveshell import InteractiveShell
 
     from course.site.moving_pictures import Renderer
-    from slamlab import views
+    from slamlab import live, views
 
     shell, renderer = InteractiveShell.instance(), Renderer(Path(folder))
-    views.explore, views.live = renderer.explore, renderer.live
-    views.show = lambda *_, **__: None  # what stands still is stored
+    views.explore, live.watch = renderer.explore, renderer.live
+    views.show = lambda *_, **__: None  # still pictures are stored already
     for cell in moving(nbformat.read(path, as_version=4)):
         renderer.cell = cell.id
         shell.run_cell(cell.source).raise_error()
-    (Path(folder) / TOLD).write_text(json.dumps(renderer.told), encoding="utf-8")
+    (Path(folder) / RESULTS).write_text(json.dumps(renderer.rendered), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -1,27 +1,27 @@
-"""Layout of pictures that follow each other: axes stay where they are as long as all has its room.
+"""Layout of successive pictures: axes keep their positions while all elements fit.
 
-What stays does not jump while a slider moves, and most of a picture's time went into its layout.
+With this layout, nothing jumps while a slider moves, and the costly computation is done only once.
 """
 
 import numpy as np
 
-from slamlab.views.arrangement import lay_out
+from slamlab.views.figure_layout import lay_out
 
 KEPT = 3  # layouts: before titles are wrapped, after it, with legends below
 SLACK = 1.5  # by which words may reach further than they did, or axes be elsewhere [pixels]
 
 
 class SteadyLayout:
-    """Callable(Figure) that lays out a figure as one before it, if that suits.
+    """Callable(Figure) that lays out a figure like an earlier one if all elements fit.
 
-    It is of use for figures that are drawn by the same function.
+    Use one layout for figures that are drawn by the same function.
     """
 
     def __init__(self):
         self._known = []  # (what a figure needed, the places of its axes), the last one first
 
     def __call__(self, fig):
-        """Give the axes of a figure their places."""
+        """Set the positions of a figure's axes."""
         for needed, places in self._known:
             if len(places) == len(fig.axes) and self._suits(fig, needed, places):
                 return
@@ -50,7 +50,7 @@ def _place(ax):
 
 
 def _needs(fig):
-    """How far words reach beyond each axes, and legends of the figure; where axes are [pixels]."""
+    """Return margins of text around each axes, sizes of legends, extents of axes [pixels]."""
     beyond, rooms = [], []
     for ax in fig.axes:
         tight = ax.get_tightbbox()

@@ -1,88 +1,88 @@
 """Command-line interface: ``slamlab COMMAND``; each subcommand is a module with ``add_parser``.
 
-Read in this order:
-
-- ``run``, ``convert``: estimators over sources, sources into reading logs; ``live``: estimators in
-  the browser; ``film``: films of runs
-- ``emulate``, ``record``, ``replay``: devices
-- ``progress``, ``reset`` (and update): a student's own folder
-- ``check``, ``grade``, ``grade_output``, ``term_verbs`` (init, release), ``gradebook_verbs``
-  (merge, adjust, export), ``ledger_verbs`` (rejudge, verify, forget), ``review``,
-  ``likeness``, ``lti``: exercises; ``contest``: students' own SLAMs
-- ``rehearse``, ``print_handout``: a lesson before and after its lecture
-- ``common``: what several share
-
-Exit codes: 0 done, 1 a task that is not passed, 2 wrong use or unreadable input, 130 interrupted.
+Read in this order: ``parsers``, ``groups`` of commands; ``run`` with ``run_results`` and
+``progress_line``, ``convert``, ``optimise``, ``live``, ``film``, ``data``; for devices
+``emulate``, ``record``, ``replay``; for shells ``completion``; ``listings`` of estimators and
+sources; ``common``.
 """
 
 import argparse
+import contextlib
+import os
 import sys
-from importlib import import_module
 
 from slamlab import __version__
+from slamlab.cli.groups import all_groups
+from slamlab.cli.parsers import Parser, did_you_mean, table
+from slamlab.extras import ExtraMissing
 
-COMMANDS = ("run", "live", "film", "convert", "emulate", "record", "replay", "check", "grade",
-            "term_verbs", "gradebook_verbs", "ledger_verbs", "review", "likeness", "lti", "contest",
-            "progress", "reset", "rehearse", "print_handout")  # fmt: skip
-SUBCOMMANDS = {
-    "grade": (
-        "init",
-        "review",
-        "likeness",
-        "lti",
-        "release",
-        "merge",
-        "adjust",
-        "export",
-        "rejudge",
-        "verify",
-        "forget",
+EPILOG = """\
+Examples:
+  slamlab run sim:room --estimator graph
+  slamlab run --list-estimators
+
+Exit codes: 0 done; 1 finished, but part of the work failed; 2 wrong use or
+unreadable input; 130 interrupted. 'slamlab COMMAND --help' describes a command."""
+
+
+def command_parsers():
+    """Return the parser of the command line, and a dict of each command's parser by name."""
+    parser = Parser(
+        prog="slamlab",
+        usage="slamlab [OPTIONS] COMMAND ...",
+        description="Run, watch and record simultaneous localisation and mapping (SLAM).",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-}
-"""Subcommands, written as two words; a folder of such a name is given as ./merge."""
+    parser.add_argument("--version", action="version", version=f"slamlab {__version__}")
+    # the epilog lists the commands by group
+    subparsers = parser.add_subparsers(
+        prog="slamlab", metavar="COMMAND", required=True, help=argparse.SUPPRESS
+    )
+    commands, listed = subparsers.choices, []
+    for group in all_groups():
+        before = set(commands)
+        group.add_parsers(subparsers)
+        new = [name for name in commands if name not in before]
+        rows = [(name, commands[name].description) for name in new if " " not in name]
+        listed.append("\n".join([f"{group.title}:", *table(rows)]))
+    parser.epilog = "\n\n".join([*listed, EPILOG])
+    for name in [name for name in commands if " " not in name]:
+        verbs = [verb for verb in commands if verb.startswith(f"{name} ")]
+        if verbs:
+            rows = [(verb.removeprefix(f"{name} "), commands[verb].description) for verb in verbs]
+            commands[name].add_argument_group("commands", "\n".join(table(rows, "")))
+    return parser, commands
 
 
-class Parser(argparse.ArgumentParser):
-    """A parser that says in one line what is wrong with its words; its subparsers do, too."""
-
-    def error(self, message):
-        """Say what is wrong and where to read more, and exit with 2."""
-        for kind, says in (("int", "a whole number"), ("float", "a number")):
-            message = message.replace(f"invalid {kind} value:", f"{says} is needed, not")
-        self.exit(2, f"{self.prog}: {message}; '{self.prog} --help' tells what it takes\n")
+def parse(words):
+    """Return the parsed arguments of a command line. Raises SystemExit."""
+    parser, commands = command_parsers()
+    if " ".join(words[:2]) in commands:  # a command of two words
+        words = [" ".join(words[:2]), *words[2:]]
+    if words and not words[0].startswith("-") and words[0] not in commands:
+        parser.error(f"there is no command {words[0]!r}.{did_you_mean(words[0], commands)}")
+    arguments, rest = parser.parse_known_args(words)
+    if rest:
+        verbs = [name for name in commands if name.startswith(f"{words[0]} ")]
+        commands[words[0]].refuse_unknown(rest, did_you_mean(" ".join(words[:2]), verbs))
+    arguments.command = words[0]
+    return arguments
 
 
 def main(argv=None):
-    """Parse the command line and run a command (entry point).
-
-    Parameters
-    ----------
-    argv : list of str or None, the words after ``slamlab``; those it was started with by default
-
-    Returns
-    -------
-    int, the exit code
-    """
-    parser = Parser(
-        prog="slamlab",
-        description="Simultaneous localisation and mapping: run it, check it, grade it.",
-        epilog="slamlab COMMAND --help says more of a command.",
-    )
-    parser.add_argument("--version", action="version", version=f"slamlab {__version__}")
-    subparsers = parser.add_subparsers(metavar="COMMAND", required=True)
-    for command in COMMANDS:
-        import_module(f"slamlab.cli.{command}").add_parser(subparsers)
-    words = list(sys.argv[1:] if argv is None else argv)
-    if words[1:2] and words[1] in SUBCOMMANDS.get(words[0], ()):
-        words[:2] = [" ".join(words[:2])]
-    arguments, rest = parser.parse_known_args(words)
-    if rest:  # of the command, whose help tells what it takes
-        Parser(prog=f"slamlab {words[0]}").error(f"unrecognized arguments: {' '.join(rest)}")
+    """Run the command that ``argv`` (default: sys.argv) names, and return its exit code."""
     try:
-        return arguments.run(arguments)
+        arguments = parse(list(sys.argv[1:] if argv is None else argv))
+        code = arguments.run(arguments)
+        sys.stdout.flush()
+        return code
+    except ExtraMissing as error:
+        print(f"slamlab {arguments.command}: {error}", file=sys.stderr)
+        return 2
     except KeyboardInterrupt:
         return 130
     except BrokenPipeError:
-        # whoever read the output has gone: nothing is left to be said
-        sys.stderr.close()
+        # whoever read the output has ended: Python must not flush the rest into the pipe
+        with contextlib.suppress(OSError):
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0

@@ -1,26 +1,48 @@
-"""Helpers shared by the commands: generator, source that ends at Ctrl-C, damage, course file."""
+"""Helper functions that the commands share."""
 
 import contextlib
 import signal
+import sys
 import threading
-from pathlib import Path
 
-from slamlab.estimators.options import OPTIONS, Number, takers
+from slamlab.cli import listings
+from slamlab.cli.parsers import Listing, UsageError
+from slamlab.devices import LIDARS
 
 SOURCES = (
-    "a log file, a ROS bag, a raw recording of devices, sim:WORLD, a recording's name, or, live, "
-    "devices:LIDAR_PORT,EMIR_PORT, or emulated:WORLD"
+    "Log file, ROS bag, raw recording of devices, name of a published recording, sim:WORLD, "
+    f"emulated:WORLD or {', '.join(f'{prefix}LIDAR_PORT,EMIR_PORT' for prefix in LIDARS)}"
 )
-COURSE = "the course file; default: course.toml here, where there is one and no --out is given"
-INTERRUPTED = 130  # the exit code after Ctrl-C, as of shells
+ADJUSTMENTS = (
+    ("lidar-yaw", "DEG", "Mounting angle of the lidar, counter-clockwise [deg] (default: 0)"),
+    ("field-of-view", "DEG", "Field of view of the lidar [deg] (default: as in the source)"),
+    ("range-scale", "M", "Unit of the ranges, 0.001 for millimetres [m] (default: 1)"),
+    ("odometry-scale", "M", "Unit of the odometry's distances [m] (default: 1)"),
+    ("turn-scale", "RAD", "Unit of the odometry's turns, 0.0174533 for degrees [rad] (default: 1)"),
+)
+SEED = "Random seed of the simulation (default: 0)"
+FAILED, INTERRUPTED = 1, 130  # exit codes beside 0 and 2; 130 as of shells
 
 
-class UsageError(Exception):
-    """A command was given in a way that means nothing; the text says how it is meant."""
+def refuse(command, error):
+    """Print in one line why a command failed, and return its exit code."""
+    if isinstance(error, BrokenPipeError):
+        raise error
+    why = error.args[0] if isinstance(error, KeyError) else error
+    if getattr(error, "strerror", None):
+        where = error.filename or "a file"
+        why = f"{where} cannot be opened or written: {error.strerror.lower()}"
+    print(f"slamlab {command}: {printable(str(why))}", file=sys.stderr)
+    return 2
+
+
+def printable(text):
+    """Replace control characters with spaces, because a terminal would interpret them."""
+    return "".join(c if c.isprintable() else " " for c in text)
 
 
 def generator(seed):
-    """The random generator of ``--seed``; ValueError where the seed is negative."""
+    """Return the random generator that ``--seed`` specifies. Raises ValueError."""
     import numpy as np  # late: a help text should come at once
 
     if seed < 0:
@@ -28,162 +50,108 @@ def generator(seed):
     return np.random.default_rng(seed)
 
 
+def add_source(parser, merge=False):
+    """Add the argument SOURCE and the options for reading it."""
+    add = parser.add_argument
+    add("source", metavar="SOURCE", help=SOURCES)
+    listing = "List the kinds of sources, the worlds and the recordings, and exit"
+    add("--list-sources", action=Listing, lines=listings.sources, help=listing)
+    add("--seed", metavar="N", type=int, default=0, help=SEED)
+    add("--carried", action="store_true", help="Carry the lidar of emulated:WORLD by hand")
+    if merge:
+        help = "Number of revolutions of the lidar that are merged into one scan (default: 1)"
+        add("--merge", metavar="N", type=int, help=help)
+    add = parser.add_argument_group("how the source is read").add_argument
+    add("--upside-down", action="store_true", help="Mirror the scans of an upside-down lidar")
+    add("--ignore-odometry", action="store_true", help="Use the scans alone")
+    for name, unit, help in ADJUSTMENTS:
+        add(f"--{name}", metavar=unit, type=float, help=help)
+
+
+def open_source(arguments):
+    """Open the source that the arguments of a command name. Raises ValueError."""
+    from slamlab.sources.calibration_overrides import override_calibration
+    from slamlab.sources.opener import open
+
+    listings.check_source(arguments.source)
+    opened = open(arguments.source, generator(arguments.seed), carried=arguments.carried)
+    if getattr(arguments, "merge", None) is not None:
+        opened.merge(arguments.merge)
+    return override_calibration(opened, adjustments(arguments))
+
+
+def adjustments(arguments):
+    """Return the calibration overrides that a command's arguments contain. Raises SourceError."""
+    from slamlab.sources.calibration_overrides import CalibrationOverrides
+
+    names = ["upside_down", "ignore_odometry"]
+    names += [name.replace("-", "_") for name, _, _ in ADJUSTMENTS]
+    given = {name: getattr(arguments, name) for name in names}
+    return CalibrationOverrides(
+        **{name: value for name, value in given.items() if value is not None}
+    )
+
+
+def film_recorder(path, estimator, source):
+    """Return the film recorder for --film, or an empty context manager without --film."""
+    if path is None:
+        return contextlib.nullcontext()
+    from slamlab.live.films import FilmRecorder
+
+    title = f"{estimator} on {source}"
+    return FilmRecorder(path, title, f"Film of a map as it grows, x across, y up: {title}.")
+
+
 def damage_line(source):
-    """Count a source's corrupt data (damage), as the end of a line; empty where there is none."""
+    """Return text that counts the damage of a source by kind, for the end of a line, or ""."""
     kinds = ", ".join(f"{kind}: {count}" for kind, count in source.damage.items())
     return f"; damage: {kinds}" if kinds else ""
 
 
 def add_estimator_options(parser):
-    """Add the choice of an estimator, and the options that some of them take."""
-    parser.add_argument(
-        "--estimator",
-        metavar="NAME",
-        default="icp",
-        help="such as odometry, icp, mak or walls; a name there is none of lists them all (icp)",
-    )
-    of_estimators = parser.add_argument_group("options of some estimators")
-    for name, option in OPTIONS.items():
-        of_estimators.add_argument(
-            f"--{name}",
-            metavar=name[0].upper() if isinstance(option, Number) else "WORD",
-            help=f"{option.help}: {option.range}; of {', '.join(takers(name))}",
-        )
+    add = parser.add_argument
+    add("--estimator", metavar="NAME", default="icp", help="Estimator to run (default: icp)")
+    param = "Parameter of the estimator; repeatable"
+    add("-p", "--param", metavar="NAME=VALUE", action="append", default=[], help=param)
+    listing = "List the estimators and their parameters, and exit"
+    add("--list-estimators", action=Listing, lines=listings.estimators, help=listing)
 
 
-def estimator_options(arguments):
-    """The estimator's options that were given, as they were typed: {name: str}."""
-    given = {name: getattr(arguments, name) for name in OPTIONS}
-    return {name: value for name, value in given.items() if value is not None}
+def estimator_parameters(arguments):
+    """Return the --param values by name, with the options' types. Raises ValueError."""
+    from slamlab.estimators.options import checked
 
-
-def add_course_options(parser, policy=True):
-    """Add the options of every command on a gradebook; a course file gives what is left out."""
-    parser.add_argument("--course", metavar="FILE", type=Path, help=COURSE)
-    parser.add_argument(
-        "--out", metavar="DIR", type=Path, help="folder of the results; default: the course file's"
-    )
-    parser.add_argument(
-        "--db",
-        metavar="URL",
-        help="the gradebook, a database that SQLAlchemy speaks to; default: DIR/grades.db, SQLite",
-    )
-    add_who_option(parser)
-    if not policy:
-        return
-    parser.add_argument(
-        "--policy",
-        metavar="FILE",
-        type=Path,
-        help='late policy: per_day = 0.1, at_most = 0.5, [due], "04" = 2026-12-01T23:59Z; '
-        "stored with each mark. A course file has its own",
-    )
-
-
-def add_who_option(parser):
-    """Add the option that says who acts."""
-    parser.add_argument(
-        "--as",
-        metavar="NAME",
-        dest="who",
-        help="who acts, as it stands with each change; default: the account of the database, or "
-        "of this machine",
-    )
-
-
-def term_of(arguments):
-    """The term that a command is given in, which fills in what was left out; None without one.
-
-    Parameters
-    ----------
-    arguments : Namespace, of :func:`add_course_options`; changed
-
-    Returns
-    -------
-    Term or None
-
-    Raises
-    ------
-    UsageError
-    TermError : the course file or the roster cannot be used
-    """
-    from slamlab.grading.term import course_file, term
-
-    file = arguments.course or Path(course_file.NAME)
-    if arguments.course is None and (arguments.out or not file.exists()):
-        if arguments.out is None:
-            raise UsageError("say --out DIR, or make a course file: slamlab grade init")
-        return None
-    for option in ("out", "policy"):
-        if getattr(arguments, option):
-            raise UsageError(f"{file} says what --{option} says; leave one of them out")
-    found = term.load(file)
-    arguments.out = found.course.results
-    arguments.db = arguments.db or found.course.gradebook
-    return found
-
-
-def exercise_of(term, id):
-    """The number of the exercise that was said, such as "04" for "4".
-
-    Parameters
-    ----------
-    term : Term or None
-    id : str
-
-    Returns
-    -------
-    str
-
-    Raises
-    ------
-    KeyError : there is none
-    UsageError : the course file has none
-    """
-    from slamlab.exercises import catalogue
-
-    id = catalogue.exercise(id).id
-    if term and id not in term.course.exercises:
-        known = ", ".join(term.course.exercises)
-        raise UsageError(f"the course file has no exercise {id}; it has {known}")
-    return id
+    listings.check_estimator(arguments.estimator)
+    if wrong := [text for text in arguments.param if "=" not in text]:
+        raise UsageError(f"--param needs NAME=VALUE, not {wrong[0]!r}")
+    return checked(arguments.estimator, dict(text.split("=", 1) for text in arguments.param))
 
 
 def add_page_options(parser):
-    """Add the options of every command that serves a page to this machine's browser."""
-    parser.add_argument("--port", metavar="N", type=int, default=0, help="any free one by default")
-    parser.add_argument("--no-open", action="store_true", help="only print the page's address")
+    """Add the options of a command that shows a web page in the browser of this computer."""
+    help = "TCP port of the page (default: any free port)"
+    parser.add_argument("--port", metavar="N", type=int, default=0, help=help)
+    parser.add_argument("--no-open", action="store_true", help="Only print the page's address")
 
 
 def check_port(arguments):
-    """Refuse a port that there is none of; another one would be taken.
-
-    Raises
-    ------
-    UsageError
-    """
+    """Raise UsageError for an invalid port number; otherwise, another port would be selected."""
     if not 0 <= arguments.port <= 65_535:
-        raise UsageError(f"--port is 0 to 65535, not {arguments.port}")
+        raise UsageError(f"--port must be from 0 to 65535, not {arguments.port}")
 
 
 def open_page(address):
-    """Open a page in a browser, or say that there is none."""
     import webbrowser
 
     if not webbrowser.open(address):
-        print("no browser was found: open that address in one", flush=True)
+        print("No browser was found. Open this address in a browser.", flush=True)
 
 
 class Interruptible:
-    """Wrapper of a source that ends it, not the program, at Ctrl-C or when devices are lost.
+    """A source that ends at Ctrl-C or when devices are lost; a second Ctrl-C ends the program.
 
-    At Ctrl-C a live one is closed at once, so that its robot stops; pressed again it ends the
-    program, too. In all else it is the source. ``ended`` says why it ended early, empty if it did
-    not, and ``code`` is the exit code for that.
-
-    Parameters
-    ----------
-    source : Source
+    Ctrl-C closes a live source at once, so that its robot stops. ``ended`` states why the
+    source ended, and ``code`` is the exit code.
     """
 
     def __init__(self, source):
@@ -196,7 +164,7 @@ class Interruptible:
         return len(self._source)
 
     def __iter__(self):
-        from slamlab.files.errors import SourceError  # late, as above
+        from slamlab.files import SourceError  # late, as above
 
         begun, in_main = False, threading.current_thread() is threading.main_thread()
         before = signal.signal(signal.SIGINT, self._pressed) if in_main else None
@@ -209,9 +177,9 @@ class Interruptible:
         except SourceError as error:
             if not begun:
                 raise
-            self.ended, self.code = str(error), 2
+            self.ended, self.code = str(error), FAILED
         finally:
-            if in_main:  # no other thread hears of Ctrl-C
+            if in_main:  # no other thread receives Ctrl-C
                 signal.signal(signal.SIGINT, before)
 
     def _pressed(self, number, frame):
@@ -223,16 +191,14 @@ class Interruptible:
 
 @contextlib.contextmanager
 def signals_as_interrupt():
-    """Handle SIGTERM and SIGHUP as Ctrl+C, which leaves no worker behind."""
+    """Handle SIGTERM and SIGHUP like Ctrl-C, so that no worker process continues to run."""
     names = [name for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
     in_main = threading.current_thread() is threading.main_thread()
-    old = {n: signal.signal(getattr(signal, n), _interrupt) for n in names if in_main}
+    old = {
+        n: signal.signal(getattr(signal, n), signal.default_int_handler) for n in names if in_main
+    }
     try:
         yield
     finally:
         for name, handler in old.items():
             signal.signal(getattr(signal, name), handler)
-
-
-def _interrupt(*_):
-    raise KeyboardInterrupt

@@ -1,116 +1,130 @@
-"""``slamlab record devices:LIDAR,EMIR --out FILE``: record all device bytes, timestamped."""
+"""``slamlab record devices:LIDAR,EMIR --out FILE``: record the devices' bytes and their times.
+
+A port is ``/dev/ttyUSB0`` or, with its baud rate, ``/dev/ttyUSB0@256000``. Without a port, the
+command searches for a lidar.
+"""
 
 import contextlib
 import sys
+import threading
+
+from slamlab.cli.common import FAILED, refuse
+from slamlab.cli.parsers import add_command
 
 DEVICES = "devices:"
-COUNTED = "turns", "turns dropped", "bytes dropped"
+CHANNELS = "lidar", "emir"
+COUNTED = "revolutions", "revolutions dropped", "bytes dropped"  # others where they are not 0
+EMIR_COUNTED = "bad frames", "bytes dropped", "reconnects"
 
 
 def add_parser(subparsers):
-    """Add the command to the command line."""
-    parser = subparsers.add_parser(
+    parser = add_command(
+        subparsers,
         "record",
-        help="record the bytes of lidar and robot",
-        description=(
-            "Open lidar and eMIR and record every byte from and to them, until Ctrl-C. Lines typed "
-            "meanwhile drive: two numbers V,OMEGA in percent; an empty line stops."
-        ),
+        "Record every byte from and to an RPLIDAR and an eMIR robot.",
+        "devices: --out flat.rec.gz",
+        "devices:/dev/ttyUSB0@256000 --out drive.rec --seconds 60",
     )
-    parser.add_argument(
-        "devices",
-        metavar="devices:LIDAR,EMIR",
-        help="their ports; the lidar's alone will do",
-    )
-    parser.add_argument(
-        "--out", metavar="FILE", required=True, help="a new file; .gz at its end packs it"
-    )
-    parser.add_argument("--mode", metavar="NAME", help="the lidar's scan mode, by name or number")
-    parser.add_argument("--seconds", metavar="S", type=float, help="end by itself after so long")
+    ports = "Ports, each with an optional @BAUD; EMIR is optional (default: search for a lidar)"
+    add = parser.add_argument
+    add("devices", metavar="devices:LIDAR,EMIR", nargs="?", default=DEVICES, help=ports)
+    out = "New file to write; compressed if its name ends in .gz"
+    add("--out", metavar="FILE", required=True, help=out)
+    mode = "Scan mode of the lidar, by name or number (default: the recommended one)"
+    add("--mode", metavar="NAME", help=mode)
+    seconds = "Length of the recording [s] (default: until Ctrl-C)"
+    add("--seconds", metavar="S", type=float, help=seconds)
     parser.set_defaults(run=run)
 
 
 def run(arguments) -> int:
-    """Record; 0 when ended, 2 when a port or the file cannot be used or is lost."""
-    # imported late: what a help text needs should come at once
+    # imported late: a help text should come at once
     from slamlab.devices.errors import SlamlabError
     from slamlab.devices.recording.recorder import Recorder
+    from slamlab.devices.serial_ports import find_lidar_port, split_baud
 
     spec = arguments.devices
     names = [name.strip() for name in spec.removeprefix(DEVICES).split(",")]
-    if not spec.startswith(DEVICES) or len(names) > 2 or not names[0]:
-        print(f"slamlab record: {spec!r} is not devices:LIDAR,EMIR", file=sys.stderr)
-        return 2
-    ports = dict(zip(("lidar", "emir"), names, strict=False))
-    bauds = {"lidar": 115200, "emir": 57600}
-    known = {name: {"port": port, "baud": bauds[name]} for name, port in ports.items() if port}
+    if not spec.startswith(DEVICES) or len(names) > 2:
+        return refuse("record", f"{spec!r} must be devices:LIDAR,EMIR, such as devices:COM3")
     recorder = None
     try:
+        if not split_baud(names[0])[0]:
+            names[0] = find_lidar_port() + names[0]
+        ports = {channel: port for channel, port in zip(CHANNELS, names, strict=False) if port}
+        # the baud rates are those at which they are opened
+        known = {name: {"port": split_baud(port)[0], "baud": None} for name, port in ports.items()}
         with Recorder(arguments.out, known) as recorder:
-            counts = _record(recorder, known, arguments.mode, arguments.seconds)
+            counts = _record(recorder, ports, arguments.mode, arguments.seconds)
     except FileExistsError:
-        print(f"slamlab record: {arguments.out} is there already: name a new file", file=sys.stderr)
-        return 2
+        return refuse("record", f"{arguments.out} exists. Name a new file with --out")
     except (SlamlabError, OSError) as error:
-        print(f"slamlab record: {error}", file=sys.stderr)
-        if recorder is not None:
-            _keep(recorder)
-        return 2
+        code = refuse("record", error)
+        if recorder is not None and recorder.received:
+            print(f"{recorder.path} contains the bytes received before the error.", file=sys.stderr)
+            return FAILED
+        elif recorder is not None:
+            recorder.path.unlink(missing_ok=True)
+        return code
     if recorder.error is not None:
-        print(f"slamlab record: {recorder.path} is incomplete: {recorder.error}", file=sys.stderr)
-        return 2
-    told = ", ".join(f"{name}: {counts[name]}" for name in COUNTED)
-    print(f"written to {recorder.path} ({told})")
+        refuse("record", f"{recorder.path} is incomplete: {recorder.error}")
+        return FAILED
+    counted = ", ".join(f"{name}: {n}" for name, n in counts.items() if n or name in COUNTED)
+    print(f"written to {recorder.path} ({counted})")
     return 0
 
 
-def _keep(recorder):
-    """Say where the recording is that ended too early; one of nothing is removed."""
-    if recorder.received:
-        print(f"what came until then is in {recorder.path}", file=sys.stderr)
-    else:
-        recorder.path.unlink(missing_ok=True)
-
-
 def _record(recorder, ports, mode, seconds):
-    """Let the devices run until the time is over or Ctrl-C; the lidar's counts."""
     from slamlab.devices.emir import Emir
     from slamlab.devices.rplidar import RPLidar
 
     with contextlib.ExitStack() as devices:
         emir = None
         if "emir" in ports:
-            emir = Emir(ports["emir"]["port"], opener=recorder.opener("emir"))
-            devices.enter_context(emir)
-        lidar = devices.enter_context(
-            RPLidar(ports["lidar"]["port"], opener=recorder.opener("lidar"))
-        )
-        lidar.start(int(mode) if mode and mode.isdigit() else mode)
-        print(f"{lidar} in mode {lidar.mode.name}; Ctrl-C ends the recording", flush=True)
-        _driven_by_lines(emir)
-        begin = lidar.clock.now()
+            emir = devices.enter_context(Emir(ports["emir"], opener=recorder.opener("emir")))
+        lidar = devices.enter_context(RPLidar(ports["lidar"], opener=recorder.opener("lidar")))
+        _start(lidar, int(mode) if mode and mode.isdecimal() else mode)
+        at = f"at {lidar.baud} baud in mode {lidar.mode.name}"
+        print(f"{lidar} {at}; press Ctrl-C to end the recording", flush=True)
+        if emir is not None:
+            threading.Thread(target=_drive_by_lines, args=(emir,), daemon=True).start()
         with contextlib.suppress(KeyboardInterrupt):
-            for _ in lidar:
-                if emir is not None:
-                    if emir.error is not None:
-                        raise emir.error
-                    emir.renew()  # somebody watches, and may press Ctrl-C
-                if recorder.error is not None:
-                    break
-                if seconds is not None and lidar.clock.now() - begin > seconds:
-                    break
-        return lidar.stats
+            _take_turns(lidar, emir, recorder, seconds)
+        counts = {name: n for name, n in lidar.stats.items() if name != "bytes"}
+        if emir is not None:
+            counts |= {f"eMIR's {name}": emir.stats[name] for name in EMIR_COUNTED}
+        return counts
 
 
-def _driven_by_lines(emir):
-    """Let a thread drive by what is typed."""
-    import threading
+def _start(lidar, mode):
+    """Start a scan in the given mode or, if the lidar does not have it, in the standard mode."""
+    from slamlab.devices.errors import UnsupportedMode
 
-    if emir is not None:
-        threading.Thread(target=_drive, args=(emir,), daemon=True).start()
+    try:
+        lidar.start(mode)
+    except UnsupportedMode as error:
+        print(f"warning: {error.what}. The lidar scans in mode 0; {error.step}", file=sys.stderr)
+        lidar.start(0)
 
 
-def _drive(emir):
+def _take_turns(lidar, emir, recorder, seconds):
+    """Record revolutions until the recording time is over, and print each warning once."""
+    begin, warned = lidar.clock.now(), set()
+    for _ in lidar:
+        for warning in set(lidar.warnings) - warned:
+            warned.add(warning)
+            print(f"warning: {warning}", file=sys.stderr, flush=True)
+        if emir is not None:
+            if emir.error is not None:
+                raise emir.error
+            emir.renew()  # the user watches, and may press Ctrl-C
+        if recorder.error is not None:
+            return
+        if seconds is not None and lidar.clock.now() - begin > seconds:
+            return
+
+
+def _drive_by_lines(emir):
     from slamlab.devices.errors import SlamlabError
 
     for line in sys.stdin:
@@ -121,6 +135,6 @@ def _drive(emir):
             else:
                 emir.stop()
         except ValueError:
-            print("two numbers: speed, turn rate [%]; or an empty line to stop", file=sys.stderr)
+            print("Type speed and turn rate [%], as in 20,5; press Enter to stop.", file=sys.stderr)
         except SlamlabError:
-            return  # the recording says so
+            return  # the recording ends with this error

@@ -1,17 +1,12 @@
-"""Device drivers for RPLIDAR and eMIR: ports, protocols, emulators, recordings of every byte.
+"""Device drivers for RPLIDAR and eMIR, with transports, protocols, emulators and recordings.
 
 Read in this order:
 
-- ``transport``: serial port, TCP connection; ``serial_ports``, ``memory_port``; ``errors``,
-  ``port_open_errors``: what can go wrong, and what to do
-- ``kept_port``: a port in a process of its own, ``port_keeper``, which outlives a killed program
-- ``reader_thread``, ``latest_value``, ``receive_timeout``, ``clock``, ``shutdown``: thread, queue,
-  timeouts and safe end of both drivers
-- ``rplidar``: the lidar's protocol and driver ``RPLidar``; ``emir``: the robot's, ``Emir``
-- ``deskewing``: motion compensation of a scan taken on the move
-- ``emulator``: both devices emulated; ``recording``: raw bytes recorded and replayed
-
-As a source of readings they are in :mod:`slamlab.sources`.
+- ``errors``: exceptions; ``transport``, ``serial_ports``: transport layer, port enumeration
+- ``port_watchdog``, ``port_watchdog_client``: process that owns a port and stops the device
+- ``clock``, ``shutdown``, ``reader_thread``, ``back_pressure_queue``, ``reconnection``
+- ``rplidar``, ``emir``: protocols and drivers
+- ``emulator``: emulated devices; ``recording``: raw recordings and their playback
 """
 
 from slamlab._lazy import exports
@@ -25,3 +20,4 @@ __all__ = exports(
         ".errors": ["SlamlabError"],
     },
 )
+LIDARS = {"devices:": "RPLidar"}  # prefix of a source's name: driver class

@@ -1,76 +1,73 @@
-"""Exceptions of the device drivers: each says what is wrong, the likely cause, what to do.
-
-Where Python has an exception of its own for it, an error is of that kind, too.
-"""
+"""Exceptions of the device drivers: each states the error, a likely cause, and what to do."""
 
 
 class SlamlabError(Exception):
-    """Base class of slamlab's device errors: a foreseeable failure.
+    """Base class of device errors.
 
     Parameters
     ----------
-    what : str, what is the case
-    cause : str, the likely one
-    step : str, what to do next
+    what : str, what is wrong
+    cause : str, the likely cause
+    step : str, what to do
     """
 
     def __init__(self, what, cause, step):
         self.what, self.cause, self.step = what, cause, step
-        super().__init__(f"{what}. Likely: {cause}. Next: {step}.")
+        super().__init__(f"{what}. Likely cause: {cause}. What to do: {step}.")
 
     def __reduce__(self):
         return type(self), (self.what, self.cause, self.step)
 
 
 class PortError(SlamlabError, OSError):
-    """Port cannot be opened."""
+    """The port cannot be opened."""
 
 
 class PortNotFound(PortError, FileNotFoundError):
-    """Port does not exist: no such device or address."""
+    """The device or address does not exist."""
 
 
 class PortPermission(PortError, PermissionError):
-    """Permission denied: this user may not open the port."""
+    """The user has no permission to open the port."""
 
 
 class PortBusy(PortError):
-    """Port in use: another program has it open."""
+    """Another program uses the port."""
 
 
 class DeviceNotResponding(SlamlabError, TimeoutError):
-    """Response timeout in the handshake: the port is open, but no such device answers on it."""
+    """The port is open, but the device on it does not respond."""
 
 
 class ProtocolError(SlamlabError):
-    """Protocol violation: what the device sends is not what the protocol says."""
+    """The received bytes violate the protocol."""
 
 
 class UnexpectedDescriptor(ProtocolError):
-    """Response descriptor of another type than the request asked for."""
+    """The response descriptor does not have the type that the request requires."""
 
 
 class ChecksumError(ProtocolError):
-    """Corrupted data: bytes arrive, but most fail their checksum or make no sense."""
+    """Most of the received packets are malformed or have a wrong checksum."""
 
 
 class DeviceFault(SlamlabError):
-    """Device reports a hardware fault; ``health`` is what it said."""
+    """The device reports a hardware fault with the status ``health``."""
 
     health = None
 
 
 class ConnectionLost(SlamlabError, ConnectionError):
-    """Connection lost: the device was there and is no more (unplugged)."""
+    """The connection was lost, for example because the device was unplugged."""
 
 
 class DataTimeout(SlamlabError, TimeoutError):
-    """Receive timeout: data should have come by now."""
+    """No data arrived before the receive timeout."""
 
 
 class DeviceSilent(ConnectionLost, DataTimeout):
-    """Receive timeout in mid-stream, the port open: unplugged behind the adapter, or stalled."""
+    """The data stream stopped although the port is still open (receive timeout)."""
 
 
 class UnsupportedMode(SlamlabError, ValueError):
-    """Scan mode that the device does not support."""
+    """The device does not support the scan mode."""

@@ -1,25 +1,17 @@
-"""Reader thread of a driver, and exponential back-off between attempts to reconnect.
-
-One thread reads the port, so that no slow plot or sleeping cell overflows its buffers.
-"""
+"""Reader thread of a driver, and the timer that measures its receive timeout."""
 
 import threading
 
 from slamlab.devices.errors import SlamlabError
 
-BACKOFF = 0.5, 5.0  # first and longest delay before another attempt to reconnect [s]
-STOP_CHECK = 0.05  # how often a delay looks whether it is to end [s]
+MAX_INCREMENT = 0.1  # largest increment of the elapsed time per read [s]: the process was suspended
 
 
 class ReaderThread:
-    """Daemon thread that repeats a step until it is stopped or the step raises.
+    """Daemon thread that calls step(stopping) until stop() is called or a SlamlabError is raised.
 
-    Parameters
-    ----------
-    step : callable(stopping) that waits a moment at most, or until the Event it is given is set
-    name : str, of the thread
-    on_end : callable(error or None), called by the thread as its last
-    clock : Clock, whose thread it is
+    A step must return soon, at the latest when the Event ``stopping`` is set. At the end, the
+    thread calls on_end(error or None).
     """
 
     def __init__(self, step, name, on_end, clock):
@@ -27,11 +19,10 @@ class ReaderThread:
         self.stopping, self._thread = threading.Event(), None
 
     def start(self):
-        """Start the thread."""
         self._thread = self._clock.start_thread(self._run, self._name)
 
     def stop(self, timeout=2.0):
-        """Stop the thread and join it, at most so long [s]; may be called from it, and again."""
+        """Stop and join the thread within the timeout [s]; the thread itself may also call this."""
         self.stopping.set()
         if self._thread is not None and self._thread is not threading.current_thread():
             self._clock.join(self._thread, timeout)
@@ -47,24 +38,14 @@ class ReaderThread:
             self._on_end(error)
 
 
-def backoff(clock, stopping):
-    """Exponential back-off: delays between attempts to reconnect (retries), each twice the last.
+class ReceiveTimer:
+    """Measures ``elapsed``, the time since the last data [s], except while suspended."""
 
-    Parameters
-    ----------
-    clock : Clock
-    stopping : threading.Event, set to cancel further retries
+    def __init__(self, now):
+        self.elapsed, self._last = 0.0, now
 
-    Yields
-    ------
-    None, after each delay
-    """
-    delay, longest = BACKOFF
-    while True:
-        end = clock.now() + delay
-        while clock.now() < end and not stopping.is_set():
-            clock.sleep(STOP_CHECK)
-        if stopping.is_set():
-            return
-        yield
-        delay = min(2 * delay, longest)
+    def update(self, now, received):
+        """Update the timer after a read that ended at ``now`` [s], and return ``elapsed``."""
+        self.elapsed = 0.0 if received else self.elapsed + min(now - self._last, MAX_INCREMENT)
+        self._last = now
+        return self.elapsed

@@ -1,7 +1,4 @@
-"""Clean shutdown: devices are closed at exit and on signals, so that motors stop.
-
-A killed process (SIGKILL, power) closes nothing: the lidar then turns on, the robot drives on.
-"""
+"""Safe shutdown: at exit and on signals except SIGKILL, devices are closed and motors stop."""
 
 import atexit
 import contextlib
@@ -10,37 +7,42 @@ import signal
 import threading
 import weakref
 
+# termination signals: from another program, from a closed terminal, on Windows
 TERMINATION_SIGNALS = [
     getattr(signal, name) for name in ("SIGTERM", "SIGHUP", "SIGBREAK") if hasattr(signal, name)
 ]
-"""Signals that end a program: from another one, from a closing terminal, on Windows."""
 
-_open = weakref.WeakKeyDictionary()  # keeps their order
+_open = weakref.WeakKeyDictionary()  # in the order of opening
 _installed = False
 
 
-def close_at_exit(device):
-    """Register a device to be closed when the program ends (atexit and signal handlers).
+class Closeable:
+    """Base class of context managers that call close() on exit."""
 
-    Parameters
-    ----------
-    device : object with close(), which may be called twice
-    """
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *exc):
+        self.close()
+
+
+def close_at_exit(device):
+    """Register an object; when the program ends, its close() is called, maybe repeatedly."""
     global _installed
     _open[device] = True
     if not _installed:
         _installed = True
         atexit.register(close_all)
-    if threading.current_thread() is threading.main_thread():  # no other may
+    if threading.current_thread() is threading.main_thread():  # others may not set handlers
         for number in TERMINATION_SIGNALS:
             if signal.getsignal(number) is signal.SIG_DFL:
                 signal.signal(number, _on_signal)
 
 
 def close_all():
-    """Close every device that is still open, the last first; none keeps another open."""
+    """Close every open device, beginning with the one that was opened last."""
     for device in reversed(list(_open)):
-        with contextlib.suppress(Exception):  # the program ends: nobody is left to be told
+        with contextlib.suppress(Exception):  # the program ends: no caller remains
             device.close()
 
 

@@ -1,20 +1,17 @@
-"""Estimators, every SLAM of the course: readings go in one at a time, pose and map come out.
+"""Estimators (SLAM algorithms), which process one reading at a time and estimate pose and map.
 
 Read in this order:
 
-- ``base``: Estimator, what all offer; ``by_name``: make, ``options``: what it takes; ``runner``:
-  run, over a whole source
-- ``dead_reckoning``: odometry alone
-- ``mak_slam``: EKF-SLAM, on ``landmark_observations``; ``wall_slam``, on ``wall_observations``,
-  ``wall_merging`` and ``wall_relocalisation`` (after slip, by ``wall_map_fit``): with walls;
-  ``foot_slam`` is Smolec's listing, with ``foot_mends`` and ``foot_formulas``
-- ``bor_slam``: boxes (set membership); ``montecarlo_slam``: particles, FastSLAM; both take the
-  names of corners from ``corner_names``
-- ``icp_slam``: scan matching, its map in ``growing_rows``; ``graph_slam``: with keyframes, submaps
-  and a pose graph, ``odometry_drift``, ``odometry_calibration``, ``loop_closure`` and
-  ``relocalisation``
-- ``timestamps``, ``odometry_jumps``: anomalies of a log's clock, of its wheels;
-  ``sufficiency``: who works on too little says so
+- ``base``: the base class, with ``plausibility_check``; ``factory``: creation from a name, with
+  ``options``; ``runner``, with ``odometry_check``; ``dead_reckoning``: odometry alone
+- ``ekf_slam``, with ``landmark_observations``; ``set_membership_slam`` and
+  ``particle_filter_slam``, with ``corner_association``: data association by an EKF-SLAM
+- ``wall_slam``: line landmarks, with ``wall_merging``, ``slip_relocalisation``, ``wall_map_fit``
+- ``foot_point_slam``: Smolec's system, with ``foot_point_corrections``, ``foot_point_formulas``
+- ``icp_slam``: scan-to-scan matching, with ``growable_array``; ``laser_odometry``: scans alone
+- ``graph_slam``: pose graph, with ``odometry_drift``, ``odometry_calibration``: gains,
+  ``loop_closure``: loop-closure candidates and their verification, ``relocalisation``
+- ``estimate_warnings``: warnings about a poor estimate
 """
 
 from slamlab._lazy import exports
@@ -23,16 +20,16 @@ __all__ = exports(
     __name__,
     {
         ".base": ["Estimator"],
-        ".by_name": ["NAMES", "make"],
+        ".factory": ["NAMES", "make"],
         ".runner": ["Run", "run"],
-        ".bor_slam": ["BorSlam"],
-        ".dead_reckoning": ["DeadReckoning", "Odometry"],
-        ".foot_mends": ["MENDS"],
-        ".foot_slam": ["FootSlam"],
+        ".set_membership_slam": ["SetMembershipSlam"],
+        ".dead_reckoning": ["DeadReckoning"],
+        ".foot_point_corrections": ["CORRECTIONS"],
+        ".foot_point_slam": ["FootPointSlam"],
         ".graph_slam": ["GraphSlam"],
         ".icp_slam": ["IcpSlam"],
-        ".mak_slam": ["MakSlam"],
-        ".montecarlo_slam": ["ParticleSlam"],
+        ".ekf_slam": ["EkfSlam"],
+        ".particle_filter_slam": ["ParticleFilterSlam"],
         ".wall_slam": ["WallSlam"],
     },
 )

@@ -1,27 +1,21 @@
-"""Dead reckoning: odometry increments composed, the estimate that SLAM has to beat."""
+"""Dead reckoning: odometry alone."""
 
 import numpy as np
 
 from slamlab.estimators.base import Estimator
-from slamlab.estimators.growing_rows import GrowingRows
+from slamlab.estimators.growable_array import GrowableArray
 from slamlab.geometry import compose, transform
 from slamlab.layers import Points, Poses
 
 
 class DeadReckoning(Estimator):
-    """Dead reckoning by odometry alone; each scan is drawn at the pose so far (naive map)."""
+    """Dead reckoning: composes odometry and draws each scan at the resulting pose (naive map)."""
 
     def __init__(self):
         super().__init__()
-        self._map = GrowingRows(2)
+        self._map = GrowableArray(2)
 
     def step(self, reading):
-        """Compose the pose with the reading's odometry increment.
-
-        Parameters
-        ----------
-        reading : Reading
-        """
         reading = self.usable(reading)
         moved = np.any(np.asarray(reading.odometry) != 0)
         self.pose = compose(self.pose, reading.odometry)
@@ -31,8 +25,4 @@ class DeadReckoning(Estimator):
         self.status = self.status_line()
 
     def layers(self):
-        """The naive map and trajectory."""
         return [Points("map", self._map.rows), Poses("naive", self.trajectory().poses)]
-
-
-Odometry = DeadReckoning  # name in the first edition

@@ -9,74 +9,50 @@ from slamlab.landmarks.ransac import Ransac, lines
 from slamlab.models import noise
 from slamlab.readings import Observations
 
-SHORT_RANGE = 1.0  # m, a sensor of shorter range sees walls of a few centimetres
+SHORT_RANGE = 1.0  # a sensor of shorter range observes walls of a few centimetres [m]
 SHORT_RANGE_RANSAC = Ransac(window=6, min_inliers=5, gap=0.05, max_hidden=2.5, min_length=0.05)
-CORNER_REACH = 0.02  # m, that a corner may lie beyond a wall's seen end
-"""For the infrared scanner: at most 0.28 m away its readings are 3 to 20 mm apart on a wall. Beyond
-2 cm a line may meet the wrong one: of the corners between 2 and 3 cm one in thirty is none."""
-CORNER_R_FACTOR = 2.0  # by which R of a short-sighted sensor's corners is enlarged
-"""The lines' R is right for all but one corner in 200: that one is where no corner is, some 6 cm
-beside one. No Gaussian has such a tail; twice the variance costs little and is hurt less by it."""
+CORNER_REACH = 0.02  # largest distance of a corner from the observed end of a wall [m]
+"""For the infrared scanner: from 2 to 3 cm, one corner in thirty is false."""
+CORNER_R_FACTOR = 2.0  # inflation of R of the corners of a short-range sensor
+"""R of the lines is correct for all but one corner in 200, which has an error of about 6 cm."""
 
 
 def observed_landmarks(reading, sensor, rng, ransac=None):
-    """Landmark observations of a reading: those it names, else the corners of its scan (features).
-
-    Corners of a short-sighted sensor say how they open. A lidar's do not: through doors it sees
-    either side of thin walls, and one corner is convex here and concave there.
-
-    Parameters
-    ----------
-    reading : Reading
-    sensor : SensorModel
-    rng : numpy.random.Generator, for RANSAC; alike generators find alike corners
-    ransac : Ransac; when None its defaults, or ``SHORT_RANGE_RANSAC`` for a sensor of less than 1 m
-
-    Returns
-    -------
-    Observations with their R, empty where there is nothing
-    """
+    """Return the observations of a reading, with R: its landmarks or, without any, its scan's
+    corners. Only corners of a short-range sensor get bisectors, because through doors, a lidar
+    observes both sides of thin walls."""
     if reading.observations is not None:
         z, ids, R = (getattr(reading.observations, name) for name in ("z", "ids", "R"))
         z = np.asarray(z, dtype=float).reshape(-1, 2)
         R = measurement_noise(sensor, z[:, 0]) if R is None else R
         return replace(reading.observations, z=z, ids=np.asarray(ids), R=R)
-    found = [] if reading.scan is None else _corners(reading.scan, sensor, rng, ransac)
+    short = sensor.range_max < SHORT_RANGE
+    found = []
+    if reading.scan is not None:
+        ransac = ransac or (SHORT_RANGE_RANSAC if short else None)
+        walls = lines(reading.scan, sensor, rng, ransac)
+        found = corners(walls, reach=CORNER_REACH) if short else corners(walls)
     z, R, bisectors, convex = (
         [getattr(corner, name) for corner in found] for name in ("z", "R", "bisector", "convex")
     )
     seen = Observations(np.reshape(z, (-1, 2)), np.full(len(found), -1), np.reshape(R, (-1, 2, 2)))
-    if sensor.range_max >= SHORT_RANGE:
+    if not short:
         return seen
     openings = {"bisectors": np.array(bisectors, float), "convex": np.array(convex, bool)}
     return replace(seen, R=CORNER_R_FACTOR * seen.R, **openings)
 
 
 class DataAssociation:
-    """Data association: which landmark each observation is of, one of the map's or a new one.
-
-    Ids of the source are taken as they are. ``ambiguous`` counts observations ignored: of a known
-    landmark or a new one, or a second one of a landmark. Our own ids are negative, no source's is.
-    """
+    """Data association of observations with landmarks. Ids that the source gives are kept; others
+    are negative. ``ambiguous`` counts observations that were ignored as ambiguous."""
 
     def __init__(self):
         self.ambiguous = 0
         self._next = -1
 
     def associate(self, observations, ids, pair):
-        """Associate the observations of one reading with landmarks, at most one with each.
-
-        Parameters
-        ----------
-        observations : Observations, with R
-        ids : list of N, those of the landmarks in the map
-        pair : callable(observations) -> ({row: which of the N}, rows that are new), of those that
-            have no name
-
-        Returns
-        -------
-        {id: row of observations.z}, a landmark at most once
-        """
+        """Associate observations: return {id: row of observations.z}, each landmark at most once.
+        For those without an id, ``pair`` returns {row: index into ids} and the unmatched rows."""
         rows: dict[int, int] = {}
         for k in np.flatnonzero(observations.ids >= 0).tolist():
             rows.setdefault(int(observations.ids[k]), k)
@@ -92,24 +68,18 @@ class DataAssociation:
         return rows
 
 
-def _corners(scan, sensor, rng, ransac):
-    if sensor.range_max >= SHORT_RANGE:
-        return corners(lines(scan, sensor, rng, ransac))
-    return corners(lines(scan, sensor, rng, ransac or SHORT_RANGE_RANSAC), reach=CORNER_REACH)
+def correct_or_add(filter, rows, observations):
+    """Update a filter by the known landmarks in ``rows`` {id: row}, and initialise the others."""
+    known = set(filter.ids)
+    for use, is_known in ((filter.update, True), (filter.add, False)):
+        ids = [i for i in rows if (i in known) == is_known]
+        if ids:
+            k = [rows[i] for i in ids]
+            use(ids, observations.z[k], observations.R[k])
 
 
 def measurement_noise(sensor, ranges):
-    """Measurement noise R of ranges and bearings, :func:`slamlab.models.noise.R` of each range.
-
-    Parameters
-    ----------
-    sensor : SensorModel
-    ranges : (m,) [m]
-
-    Returns
-    -------
-    (m, 2, 2) [m², rad²]
-    """
+    """Return the measurement noise R (m, 2, 2) [m², rad²] at ranges (m,) [m]."""
     s = sensor
     R_each = [
         noise.R(r, s.range_error, s.bearing_sigma, s.range_sigma, s.range_curvature) for r in ranges
@@ -117,24 +87,11 @@ def measurement_noise(sensor, ranges):
     return np.reshape(R_each, (-1, 2, 2))
 
 
-def require_landmarks(source, name):
-    """Raise an error for a source without landmark observations and scans.
-
-    Parameters
-    ----------
-    source : Source
-    name : str, of the estimator
-
-    Raises
-    ------
-    ValueError : no reading holds landmarks or a scan
-    """
-    # a source that goes on for ever, such as a robot, has no length and is not run through
+def require_landmarks_or_scans(source, name):
+    """Raise ValueError if a source has neither landmarks nor scans."""
+    # an endless source, such as a robot, has no length and is not iterated
     if len(source) and all(r.observations is None and r.scan is None for r in source):
         raise ValueError(
-            f"{source.name} holds neither landmarks nor scans, of which {name} needs one; "
+            f"{source.name} has neither landmarks nor scans, but {name} needs one of them; "
             "sim:landmarks has landmarks"
         )
-
-
-seen, CLOSE = observed_landmarks, SHORT_RANGE_RANSAC  # names in the first edition

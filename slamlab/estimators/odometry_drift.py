@@ -1,33 +1,22 @@
-"""Odometry drift as process noise for graph SLAM, and errors that no robot's model tells."""
+"""Odometry drift as additional process noise of graph SLAM, beyond the robot's model."""
 
 import numpy as np
 
-from slamlab.estimators.mak_slam import Q_arc
+from slamlab.estimators.ekf_slam import Q_arc
 from slamlab.geometry import compose
 
-# standard deviations of an increment: shares of the reach, of it a rad turned; rad, of the turn
+# standard deviations of an increment: position in shares of the reach, constant and per rad;
+# heading in rad, constant and per rad
 DRIFT_SIGMA = 0.003, 0.03, 0.005, 0.05
-STANDSTILL_TURN = 1.0  # turn assumed at zero odometry: there may be no encoders [rad]
-UNMODELLED_SIGMA = 0.03, 0.1, 0.15  # of any odometry: shares of reach and of distance, rad
+STANDSTILL_TURN = 1.0  # turn assumed for a zero increment, as without encoders [rad]
+UNMODELLED_SIGMA = 0.03, 0.1, 0.15  # of any odometry: shares of reach and distance, rad
 
 
 def predict(pose, P, odometry, robot, reach):
-    """Prediction of pose and covariance by an odometry increment: P ← A P Aᵀ + Q.
+    """Predict the pose (3,) and its covariance (3, 3): P ← A P Aᵀ + Q; ``reach`` of the scans [m].
 
-    Beside what the robot's model says, the scanner need not sit where the odometry's frame turns,
-    and there may be no odometry at all.
-
-    Parameters
-    ----------
-    pose : (3,) [m, m, rad]
-    P : (3, 3) covariance
-    odometry : (3,) motion in the frame of the pose [m, m, rad]
-    robot : RobotModel
-    reach : float, how far the scans reach [m]
-
-    Returns
-    -------
-    (3,), (3, 3)
+    Q is larger than in the robot's model, because the lidar may not be at the centre of rotation,
+    and odometry may be missing.
     """
     after, A = compose(pose, odometry), np.eye(3)
     A[:2, 2] = pose[1] - after[1], after[0] - pose[0]
@@ -38,12 +27,6 @@ def predict(pose, P, odometry, robot, reach):
 
 
 def unmodelled_covariance(motion, reach):
-    """(3, 3) covariance of odometry errors that the robot's model does not tell.
-
-    Parameters
-    ----------
-    motion : (3,) since the last keyframe [m, m, rad]
-    reach : float [m]
-    """
+    """Return the covariance (3, 3) of odometry errors that the robot's model does not include."""
     distance = UNMODELLED_SIGMA[0] * reach + UNMODELLED_SIGMA[1] * np.hypot(motion[0], motion[1])
     return np.diag(np.square([distance, distance, UNMODELLED_SIGMA[2]]))

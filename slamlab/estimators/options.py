@@ -1,34 +1,27 @@
-"""Options of estimators by name: what each takes, and which values it may have.
-
-Plain data, so that a command line can list them without importing a filter.
-"""
+"""Options (parameters) of the estimators, as plain data: listing them does not import filters."""
 
 from dataclasses import dataclass
 from math import isfinite
 
-MAX_SAMPLES = 100_000  # of a particle filter; more take gigabytes, and minutes a step
+MAX_PARTICLES = 100_000  # of a particle filter; more take gigabytes, and minutes a step
 
 
 @dataclass(frozen=True)
 class Choice:
-    """An option that is one of several words.
-
-    Parameters
-    ----------
-    help : str, what it says
-    values : tuple of str, the first is the default
-    """
+    """An option whose value is one of a few words; the first word is the default."""
 
     help: str
     values: tuple[str, ...]
 
     @property
     def range(self):
-        """str, which values it may have."""
         return " or ".join(self.values)
 
+    @property
+    def default(self):
+        return self.values[0]
+
     def parsed(self, value):
-        """The word; ValueError where it is another one."""
         if value not in self.values:
             raise ValueError
         return value
@@ -36,31 +29,24 @@ class Choice:
 
 @dataclass(frozen=True)
 class Number:
-    """An option that is a number.
-
-    Parameters
-    ----------
-    help : str, what it says
-    low : float, the least it may be
-    kind : type, int for a whole number
-    below : float, what it has to stay below; of a whole number it is one too many
-    """
+    """An option that is a number of type ``kind`` in [low, below); ``default`` is its text."""
 
     help: str
     low: float
+    default: str
+    unit: str = ""
     kind: type = float
     below: float = float("inf")
 
     @property
     def range(self):
-        """str, which values it may have."""
         kind, most = "a number", f" to below {self.below}"
         if self.kind is int:
             kind, most = "a whole number", f" to {self.below - 1}"
         return f"{kind} from {self.low}" + most * isfinite(self.below)
 
     def parsed(self, value):
-        """The number, of a text too; ValueError where it is none or out of range."""
+        """Convert a value or its text to a number. Raises ValueError if it is out of range."""
         number = float(value)
         if not self.low <= number < self.below or self.kind(number) != number:
             raise ValueError
@@ -69,70 +55,61 @@ class Number:
 
 OPTIONS = {
     "bounds": Choice(
-        "bounds of boxes: honest ones hold but for a chance, tuned ones are chosen by results",
-        ("honest", "tuned"),
+        "Bounds of the errors: conservative bounds contain them with high probability",
+        ("conservative", "tuned"),
     ),
-    "names": Choice(
-        "who names the corners of scans: EKF-SLAM run beside, or the filter its own",
-        ("mak", "own"),
+    "association": Choice(
+        "Data association of the corners: by a parallel EKF-SLAM, or by the filter", ("ekf", "own")
     ),
-    "close": Number(
-        "metres from their mean within which all samples of a landmark lie when it is frozen to "
-        "a point; 0 for never (0.05)",
+    "freeze_distance": Number(
+        "Distance from the mean at which a landmark's particles freeze (0: never)",
         low=0.0,
+        default="0.05",
+        unit="m",
     ),
-    "samples": Number(
-        "samples of the robot (montecarlo 1000, fastslam 200)",
+    "particles": Number(
+        "Number of particles of the robot",
         low=1,
         kind=int,
-        below=MAX_SAMPLES + 1,
+        below=MAX_PARTICLES + 1,
+        default="1000, of fastslam 200",
     ),
-    "relocalise": Choice("whether a robot whose wheels slipped is looked for", ("yes", "no")),
-    "mends": Choice("mends of the listing: as it is printed, or with all of them", ("none", "all")),
-    "smoothing": Number("share of the last shown pose that the next keeps (0)", low=0.0, below=1.0),
+    "relocalise": Choice("Whether the robot is relocalised after its wheels slip", ("yes", "no")),
+    "corrections": Choice("Corrections of the thesis' printed listing", ("none", "all")),
+    "smoothing": Number(
+        "Weight of the last displayed pose in the next one", low=0.0, below=1.0, default="0"
+    ),
 }
 TAKES = {
     "mak": ("smoothing",),
     "mak-first-estimates": ("smoothing",),
-    "bor": ("bounds", "names"),
-    "montecarlo": ("names", "close", "samples"),
-    "fastslam": ("names", "samples"),
+    "bor": ("bounds", "association"),
+    "montecarlo": ("association", "freeze_distance", "particles"),
+    "fastslam": ("association", "particles"),
     "walls": ("relocalise",),
-    "walls-foot": ("mends",),
+    "walls-foot-points": ("corrections",),
 }
-"""The options of each estimator; of those that are not here, none."""
+"""The options of each estimator; an estimator that is not listed has no options."""
 
 
 def checked(estimator, options):
-    """Check the options of an estimator, numbers given as text included.
-
-    Parameters
-    ----------
-    estimator : str, its name
-    options : {str: value}
-
-    Returns
-    -------
-    {str: value}, words and numbers
-
-    Raises
-    ------
-    ValueError : one that it does not take, or a value that is none of its values
-    """
+    """Parse an estimator's options {name: value}. Raises ValueError if an option is not allowed."""
     found = {}
     for name, value in options.items():
         if name not in TAKES.get(estimator, ()):
             takes = ", ".join(TAKES.get(estimator, ())) or "none"
-            who = f"; {' and '.join(takers(name))} would" if name in OPTIONS else ""
-            raise ValueError(f"{estimator} does not take the option {name} (it takes {takes}){who}")
+            others = f"; use it with {' or '.join(takers(name))}" if name in OPTIONS else ""
+            raise ValueError(
+                f"{estimator} does not take the option {name} (it takes {takes}){others}"
+            )
         try:
             found[name] = OPTIONS[name].parsed(value)
         except (ValueError, TypeError, OverflowError):
             allowed = OPTIONS[name].range
-            raise ValueError(f"{name} of {estimator} is {allowed}, not {value!r}") from None
+            raise ValueError(f"{name} of {estimator} must be {allowed}, not {value!r}") from None
     return found
 
 
 def takers(option):
-    """List of the estimators that take an option."""
+    """Return the names of the estimators that have the given option."""
     return [estimator for estimator, names in TAKES.items() if option in names]

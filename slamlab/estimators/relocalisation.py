@@ -1,9 +1,5 @@
-"""Relocalisation (relocalization) of a kidnapped robot, after it was carried: global matching.
-
-Where no scan fits the odometry (tracking lost), a new track of keyframes begins, tied by odometry
-alone. As long as no loop ties it, its keyframes are matched with old ones everywhere, some between
-two readings. Each match votes for a place; where enough votes agree, the track is moved there.
-"""
+"""Relocalisation of a kidnapped robot (global localisation): matches the keyframes of a new track
+with all old keyframes; each match votes for a pose of the track."""
 
 from collections import deque
 
@@ -14,22 +10,17 @@ from slamlab.geometry import between, compose, inverse
 from slamlab.scanmatching import match
 
 WEAK_INFORMATION = np.diag([1e-6, 1e-6, 1e-3])  # of an unknown motion [1/m², 1/m², 1/rad²]
-FIRST_KEYFRAMES = 6  # keyframes of a track that are matched in any case
-LATER_EVERY = 4  # of the later ones every so many, until the track is relocalised
-MIN_SPACING = 0.5  # of the old keyframes that are matched with, a share of the reach [1]
+FIRST_KEYFRAMES = 6  # first keyframes of a track, which are all matched
+LATER_EVERY = 4  # of the later keyframes every so many, until the track is relocalised
+MIN_SPACING = 0.5  # of the old keyframes that are used, as a share of the reach [1]
 MATCHES_PER_READING = 3  # global matches between two readings
-MIN_OVERLAP, MIN_AGREEMENT = 0.6, 0.9  # stricter than for a loop, which is expected there [1]
-CLUSTER_RADIUS = 0.1  # by which two votes for one place differ: shares of the reach, and rad
-MIN_VOTES = 3  # keyframes that must vote for a place, two more than for any other
+MIN_OVERLAP, MIN_AGREEMENT = 0.6, 0.9  # stricter than for a loop, which has a prior [1]
+CLUSTER_RADIUS = 0.1  # largest difference of two votes for one pose: shares of the reach, and rad
+MIN_VOTES = 3  # least number of keyframes that vote for a pose, two more than for any other
 
 
 class Relocalisation:
-    """Relocalisation of tracks of keyframes that only odometry ties to the map.
-
-    Parameters
-    ----------
-    loop_closure : LoopClosure, whose graph and keyframes it works on
-    """
+    """Relocalisation of the tracks that only odometry connects to the map of a LoopClosure."""
 
     def __init__(self, loop_closure):
         self.loop_closure = loop_closure
@@ -37,7 +28,7 @@ class Relocalisation:
         self._candidates, self._hypotheses = deque(), []
 
     def propose_candidates(self, i):
-        """Queue a keyframe of an unconnected track for matching with old ones everywhere."""
+        """Queue a keyframe of a track that is not yet connected to the map."""
         track = self.keyframes[i].track
         tracks = np.array([keyframe.track for keyframe in self.keyframes[: i + 1]])
         count = np.count_nonzero(tracks == track)
@@ -48,12 +39,12 @@ class Relocalisation:
         kept = []
         for j in np.flatnonzero(tracks < track):
             away = np.hypot(*(self.graph.poses[kept, :2] - self.graph.poses[j, :2]).T)
-            if (away > MIN_SPACING * self.keyframes[j].surface.reach).all():
+            if (away > MIN_SPACING * self.keyframes[j].cloud.reach).all():
                 kept.append(int(j))
         self._candidates.extend((j, i) for j in kept)
 
     def process_candidates(self):
-        """Match a few candidates of tracks that are still unconnected; then count the votes."""
+        """Match a few candidate pairs of keyframes, then count the votes."""
         tries = MATCHES_PER_READING
         while tries and self._candidates:
             j, i = self._candidates.popleft()
@@ -64,22 +55,20 @@ class Relocalisation:
             self._vote()
 
     def _match_globally(self, j, i):
-        """Match keyframe i with the submap round keyframe j, by a search over all poses."""
-        scan, old = self.keyframes[i].surface, self.keyframes[j].surface
+        scan, old = self.keyframes[i].cloud, self.keyframes[j].cloud
         target = submap_around(self.keyframes, self.graph.poses, j)
         matched = match(scan, target, search=np.pi)
         if not is_verified(matched, scan, old, MIN_OVERLAP, MIN_AGREEMENT):
             return
         there = compose(self.graph.poses[j], matched.pose)
-        # the motion that would bring the whole track there
+        # the transformation of the whole track
         shift = compose(there, inverse(self.graph.poses[i]))
-        common = self.loop_closure.common_error
-        matched.add_residuals(common)
-        edge = j, i, matched.pose, match_information(matched, common.sigma)
+        error = self.loop_closure.correlated_error
+        matched.add_residuals(error)
+        edge = j, i, matched.pose, match_information(matched, error.sigma)
         self._hypotheses.append((self.keyframes[i].track, shift, there, scan.reach, edge))
 
     def _vote(self):
-        """Cluster the newest track's hypotheses; relocalise it where one cluster clearly wins."""
         track = self._hypotheses[-1][0]
         hypotheses = [h for h in self._hypotheses if h[0] == track]
         count = sum(keyframe.track == track for keyframe in self.keyframes)
@@ -99,7 +88,7 @@ class Relocalisation:
             self._relocalise([h[-1] for h in clusters[-1]], clusters[-1][0][1])
 
     def _relocalise(self, edges, shift):
-        """Move a track, add its matches as robust edges, and weaken the odometry edge."""
+        """Move a track, add its matches as robust edges, and weaken its odometry edge."""
         track = self.keyframes[edges[0][1]].track
         own = [k for k, keyframe in enumerate(self.keyframes) if keyframe.track >= track]
         graph = self.graph
@@ -116,14 +105,14 @@ class Relocalisation:
 
 
 def votes(cluster):
-    """The votes of a cluster: how many keyframes gave its hypotheses."""
+    """Return the number of keyframes that have hypotheses in a cluster."""
     return len({h[-1][1] for h in cluster})
 
 
 def agree(a, b):
-    """Whether two hypotheses relocalise the same track at the same place."""
+    """Whether two hypotheses give the track nearly the same pose."""
     if a[0] != b[0]:
         return False
-    # seen from where the track would lie: a turn far from the origin moves a lot
+    # relative to the track's pose: a rotation about the distant origin is a large translation
     x, y, turn = between(b[2], compose(compose(a[1], inverse(b[1])), b[2]))
     return np.hypot(x, y) < CLUSTER_RADIUS * b[3] and abs(turn) < CLUSTER_RADIUS

@@ -1,39 +1,38 @@
-"""Run an estimator over a source (dataset), with the naive (odometry-only) trajectory beside."""
+"""Running of an estimator over a source."""
 
 import time
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-import numpy as np
-
 from slamlab.estimators.base import Estimator
-from slamlab.estimators.odometry_jumps import odometry_anomaly
-from slamlab.geometry import compose
+from slamlab.estimators.odometry_check import OdometryCheck
 from slamlab.readings import Reading, Trajectory
 
 
 @dataclass(frozen=True)
 class Run:
-    """The result of a run: trajectories, counts and run time.
+    """The result of running an estimator over a source.
 
     Parameters
     ----------
     source : Source
     estimator : Estimator, after its last step
-    trajectory : Trajectory as the estimator believes it at the end
-    naive : Trajectory by odometry alone, without its jumps
-    frames : int, readings taken in
-    skipped : int, readings lost to damage or without a usable scan
+    trajectory : Trajectory, as estimated at the end
+    naive : Trajectory by odometry alone, without jumps; None without odometry
+    frames : int, processed readings
+    skipped : int, damaged readings, or readings without a usable scan
     seconds : float, wall-clock time [s]
+    warnings : list of str, disagreements of odometry and scans
     """
 
     source: Iterable[Reading]
     estimator: Estimator
     trajectory: Trajectory
-    naive: Trajectory
+    naive: Trajectory | None
     frames: int
     skipped: int
     seconds: float
+    warnings: list[str]
 
 
 def run(source, estimator, on_step=None):
@@ -49,12 +48,10 @@ def run(source, estimator, on_step=None):
     -------
     Run
     """
-    start, naive, times, poses = time.perf_counter(), np.zeros(3), [], []
+    start, frames, odometry = time.perf_counter(), 0, OdometryCheck(source.sensor)
     for reading in source:
-        if not odometry_anomaly(reading.odometry):
-            naive = compose(naive, reading.odometry)
-        times.append(reading.time)
-        poses.append(naive)
+        frames += 1
+        odometry.step(reading)
         estimator.step(reading)
         if on_step is not None:
             on_step(reading, estimator)
@@ -62,8 +59,9 @@ def run(source, estimator, on_step=None):
         source=source,
         estimator=estimator,
         trajectory=estimator.trajectory(),
-        naive=Trajectory(np.array(times), np.array(poses).reshape(-1, 3)),
-        frames=len(times),
+        naive=odometry.trajectory() if odometry.has_odometry else None,
+        frames=frames,
         skipped=source.skipped + estimator.skipped,
         seconds=time.perf_counter() - start,
+        warnings=odometry.warnings,
     )

@@ -1,35 +1,24 @@
-"""Pieces of one wall: landmarks found apart, through two doors say, that grew together are merged.
+"""Landmark merging: line landmarks that are segments of one wall (duplicates) become one.
 
-The two sides of a wall are no such pieces. Its line's normal points away from where the robot was
-when it found it, so they are half a turn apart: two planes, a wall's thickness from each other, and
-rightly two landmarks, also where a simulated wall has no thickness.
+The two sides of a wall remain two landmarks: their normals are opposite.
 """
 
 import numpy as np
 
-from slamlab.filters.merging import merge, squared_difference
+from slamlab.filters.landmark_merging import merge, squared_difference
 from slamlab.geometry import wrap
-from slamlab.landmarks.tentative_walls import MAX_GAP, extent
+from slamlab.landmarks.track_management import MAX_GAP, extent
 from slamlab.landmarks.wall_segments import hull, union
 
-MAX_TURN = np.radians(3)  # between the normals of pieces of one wall [rad]
-MERGE_GATE = 9.21  # χ² gate, 2 degrees of freedom: pieces of one wall fail it once in a hundred
+MAX_TURN = np.radians(3)  # largest angle between the normals of segments of one wall [rad]
+MERGE_GATE = 9.21  # χ² gate, 2 degrees of freedom: 99 % of the segments of one wall pass
 
 
-def merge_pieces(mak, extents):
-    """Merge walls that have turned out to be pieces of one, the surest first.
-
-    Parameters
-    ----------
-    mak : MAK, of lines; what is merged leaves it
-    extents : dict of (k, 2), each wall's id to what was seen of it, from and to [m]; changed, too
-
-    Returns
-    -------
-    int, how many left
-    """
+def merge_same_wall_landmarks(mak, extents):
+    """Merge landmarks of the same wall, both in a MAK of lines and in ``extents`` {id: (k, 2) start
+    and end [m]}, and return the number of merged landmarks."""
     before = len(extents)
-    while pair := pieces_of_one_wall(mak, {i: hull(parts) for i, parts in extents.items()}):
+    while pair := same_wall_landmarks(mak, {i: hull(parts) for i, parts in extents.items()}):
         kept, gone = pair
         ends = ends_of(mak.x[mak.rows([gone])], extents.pop(gone))
         merge(mak, kept, gone)
@@ -39,20 +28,9 @@ def merge_pieces(mak, extents):
     return before - len(extents)
 
 
-def pieces_of_one_wall(mak, hulls):
-    """The two landmarks that are most surely one wall: parallel, near, and one by the filter.
-
-    Near are those of which none begins farther than half a metre from the other, along or across.
-
-    Parameters
-    ----------
-    mak : MAK, of lines
-    hulls : dict of (2,), each wall's id to where along its line it begins and ends [m]
-
-    Returns
-    -------
-    (kept, gone) ids, the older one first; None where no two are one wall
-    """
+def same_wall_landmarks(mak, hulls):
+    """Return the ids (kept, gone) of the two closest landmarks inside the gate, or None. ``hulls``
+    is {id: (2,) start and end [m]}."""
     lines = dict(zip(mak.ids, mak.landmarks(), strict=True))
     seen = [i for i in lines if np.isfinite(hulls[i]).all()]
     found = [
@@ -64,13 +42,15 @@ def pieces_of_one_wall(mak, hulls):
 
 
 def _near(lines, hulls):
-    """Rows a < b of (n, 2) lines that are parallel, and of which b begins or ends near a."""
+    """Return pairs of rows a < b of parallel lines (n, 2) such that an end of b is near a."""
     if len(lines) < 2:
         return []
     rho, alpha = lines.T
-    normals, ways = (np.column_stack([np.cos(a), np.sin(a)]) for a in (alpha, alpha + np.pi / 2))
-    ends = (rho[:, None] * normals)[:, None] + hulls[..., None] * ways[:, None]
-    along = np.einsum("ak,bek->abe", ways, ends)
+    normals, directions = (
+        np.column_stack([np.cos(a), np.sin(a)]) for a in (alpha, alpha + np.pi / 2)
+    )
+    ends = (rho[:, None] * normals)[:, None] + hulls[..., None] * directions[:, None]
+    along = np.einsum("ak,bek->abe", directions, ends)
     off = np.abs(np.einsum("ak,bek->abe", normals, ends) - rho[:, None, None]).max(axis=2)
     near = (along.min(axis=2) <= hulls[:, 1:] + MAX_GAP) & (off <= MAX_GAP)
     near &= along.max(axis=2) >= hulls[:, :1] - MAX_GAP
@@ -79,16 +59,6 @@ def _near(lines, hulls):
 
 
 def ends_of(line, extents):
-    """Points on a line where pieces of it begin and end.
-
-    Parameters
-    ----------
-    line : (2,) ρ [m], α [rad]
-    extents : (..., 2) from and to along the line [m]
-
-    Returns
-    -------
-    (..., 2, 2) points [m]
-    """
-    normal, way = (np.array([np.cos(a), np.sin(a)]) for a in (line[1], line[1] + np.pi / 2))
-    return line[0] * normal + np.asarray(extents)[..., None] * way
+    """Return the end points (..., 2, 2) [m] of segments (..., 2) on a line (ρ, α)."""
+    normal, along = (np.array([np.cos(a), np.sin(a)]) for a in (line[1], line[1] + np.pi / 2))
+    return line[0] * normal + np.asarray(extents)[..., None] * along

@@ -1,52 +1,51 @@
-"""EKF-SLAM with line landmarks: walls of a scan, observed as (ρ, α), in the MAK filter.
-
-Smolec's system with its landmark mended: a wall's distance and direction as seen from the robot are
-a measurement of their own, whereas the foot of the perpendicular is computed through the pose.
-"""
+"""EKF-SLAM with line landmarks: walls observed as (ρ, α) (Hessian normal form)."""
 
 import numpy as np
 
 from slamlab.estimators.base import Estimator, counted
-from slamlab.estimators.mak_slam import predict
-from slamlab.estimators.sufficiency import hardly_surer, mostly_unknown, wider_than_map
-from slamlab.estimators.wall_merging import ends_of, merge_pieces
-from slamlab.estimators.wall_observations import observed_walls
-from slamlab.estimators.wall_relocalisation import WallRelocalisation
+from slamlab.estimators.ekf_slam import predict
+from slamlab.estimators.estimate_warnings import (
+    little_better_than_odometry,
+    mostly_unknown_walls,
+    uncertainty_wider_than_map,
+)
+from slamlab.estimators.landmark_observations import SHORT_RANGE, SHORT_RANGE_RANSAC
+from slamlab.estimators.laser_odometry import LaserOdometry
+from slamlab.estimators.slip_relocalisation import SlipRelocalisation
+from slamlab.estimators.wall_merging import ends_of, merge_same_wall_landmarks
 from slamlab.filters.data_association import squared_distances
+from slamlab.filters.ekf_slam_filter import MAK
 from slamlab.filters.landmark_models import LINES
-from slamlab.filters.mak import MAK
 from slamlab.geometry import transform
 from slamlab.landmarks.downsampling import DownsampledPoints
-from slamlab.landmarks.sonar_lines import slant
-from slamlab.landmarks.tentative_walls import TentativeWalls, extent, overlap
+from slamlab.landmarks.ransac import lines
+from slamlab.landmarks.sonar_lines import slant, sonar_lines
+from slamlab.landmarks.track_management import TrackManager, extent, overlap
 from slamlab.landmarks.wall_segments import hull, split_at_gaps, union
 from slamlab.layers import Ellipses, Points, Poses, Segments
 from slamlab.models.observation import g_line
 
-GATE = 13.8  # χ² gate, 2 degrees of freedom: a true pairing fails it once in a thousand
-ONLY_NEW = "scans of only new walls"
-AMBIGUITY_GATE = 4 * GATE  # χ²: beyond the gate and below this ambiguous, neither used nor new
+GATE = 13.8  # χ² gate, 2 degrees of freedom: 99.9 % of the true pairs pass
+UNKNOWN_WALLS_ONLY = "scans with only unknown walls"
+AMBIGUITY_GATE = 4 * GATE  # χ²: between both gates an observation is ambiguous and ignored
 
 
 class WallSlam(Estimator):
-    """EKF-SLAM (MAK) on line landmarks: the walls of each scan, found as its sensor asks for.
+    """EKF-SLAM (MAK) with line landmarks: the walls that the scans show.
 
-    A landmark is one side of one wall, without what stands beyond a door: pieces of it that were
-    found apart and have grown together are merged, see :mod:`slamlab.estimators.wall_merging`. A
-    robot whose wheels slip is found again, see :mod:`slamlab.estimators.wall_relocalisation`.
+    A landmark is one side of a wall. :mod:`slamlab.estimators.wall_merging` merges duplicates, and
+    :mod:`slamlab.estimators.slip_relocalisation` relocalises the robot after wheel slip.
 
     Parameters
     ----------
     robot : RobotModel
     sensor : SensorModel
     rng : numpy.random.Generator, for RANSAC
-    ransac : Ransac, what the sensor asks for when None
-    sightings : int, observations that confirm a tentative landmark, 3 when None, of a sonar 2; the
-        first scan's are at once
-    lives : int, how many scans a tentative landmark survives unseen
-    first_estimates : bool, see :class:`MAK`; without, a map of lines soon believes it knows north
-    relocalise : bool, whether it looks for the robot where a slip may have put it; a sonar's scans
-        are too coarse for that
+    ransac : Ransac; when None, chosen for the sensor
+    min_observations : int, observations that confirm a landmark; when None, 3, or 2 for a sonar
+    max_misses : int, scans in a row without an observation that delete a tentative landmark
+    first_estimates : bool, see :class:`MAK`; without it the heading becomes overconfident
+    relocalise : bool, whether to relocalise after wheel slip; not with a sonar
     """
 
     def __init__(
@@ -55,8 +54,8 @@ class WallSlam(Estimator):
         sensor,
         rng,
         ransac=None,
-        sightings=None,
-        lives=3,
+        min_observations=None,
+        max_misses=3,
         first_estimates=True,
         relocalise=True,
     ):
@@ -65,26 +64,22 @@ class WallSlam(Estimator):
         self.filter = MAK(
             np.zeros(3), np.zeros((3, 3)), kind=LINES, first_estimates=first_estimates
         )
-        if sightings is None:  # a sonar hears few walls, and each has shown a slope
-            sightings = 2 if sensor.half_cone else 3
-        self.tentative = TentativeWalls(sightings, lives)
+        if min_observations is None:  # a sonar observes few walls, which are rarely false
+            min_observations = 2 if sensor.half_cone else 3
+        self.tentative = TrackManager(min_observations, max_misses)
         self.extents: dict[int, np.ndarray] = {}  # stretches of each wall, along its line [m]
         self.points = DownsampledPoints()
         self.ambiguous = self.merged = 0
         self.relocalise = relocalise and not sensor.half_cone
-        self.relocalisation = WallRelocalisation(self, rng.spawn(1)[0])
-        self._alone = MAK(np.zeros(3), np.zeros((3, 3)), capacity=0)
+        self.relocalisation = SlipRelocalisation(self, rng.spawn(1)[0])
+        self.laser_odometry = None if sensor.half_cone else LaserOdometry()
+        self._odometry_only = MAK(np.zeros(3), np.zeros((3, 3)), capacity=0)
         self._started, self._next, self._steps, self._scans = False, 0, 0, 0
 
     def step(self, reading):
-        """Process a reading: predict by odometry, correct by confirmed walls, queue tentative ones.
-
-        Parameters
-        ----------
-        reading : Reading
-        """
+        """Predict by odometry, correct by confirmed walls, confirm or delete tentative walls."""
         reading = self.usable(reading)
-        for each in (self.filter, self._alone):
+        for each in (self.filter, self._odometry_only):
             predict(each, reading, self.robot)
         self.relocalisation.predict(reading.odometry)
         self._steps += 1
@@ -103,19 +98,17 @@ class WallSlam(Estimator):
 
     @property
     def warnings(self):
-        """What it says where it sees too little, or too little again: list of sentences."""
         P = self.filter.block([0, 1])
-        unsure = hardly_surer(P, self._alone, self._steps)
-        if unsure:  # to lay out all walls costs a tenth of a step
-            unsure += wider_than_map(P, self.walls().reshape(-1, 2), self._steps)
+        uncertain = little_better_than_odometry(P, self._odometry_only, self._steps)
+        if uncertain:  # listing all walls costs a tenth of a step
+            uncertain += uncertainty_wider_than_map(P, self.walls().reshape(-1, 2), self._steps)
         return [
-            *unsure,
-            *mostly_unknown(self.counts[ONLY_NEW], self._scans),
+            *uncertain,
+            *mostly_unknown_walls(self.counts[UNKNOWN_WALLS_ONLY], self._scans),
             *self.relocalisation.warnings,
         ]
 
     def layers(self):
-        """Points, walls as far as seen, the trajectory, the robot's 95 % covariance ellipse."""
         P_rr, _, _ = self.filter.blocks()
         return [
             Points("scan", self.points.xy),
@@ -125,28 +118,26 @@ class WallSlam(Estimator):
         ]
 
     def walls(self):
-        """(k, 4) line segments of the map, where walls were seen, doors open: x1 y1 x2 y2 [m]."""
+        """Return the observed segments (k, 4) of the map's walls: x1 y1 x2 y2 [m]."""
         pieces = [ends_of(line, self.extents[i]) for i, line in self._map_lines().items()]
         return np.concatenate([np.empty((0, 2, 2)), *pieces]).reshape(-1, 4)
 
     def _map_lines(self):
-        """The line landmarks of the map as estimated now: id to (ρ, α)."""
         return dict(zip(self.filter.ids, self.filter.landmarks(), strict=True))
 
     def _take_in(self, reading):
-        """Find the walls of a scan, tell which they are and whether the wheels slipped; learn."""
         found = observed_walls(reading.scan, self.sensor, self.rng, self.ransac)
         known, new = self._associate(found)
         lost = bool(self._started and new and not known)  # the wheels may have slipped
-        self.counts.update([ONLY_NEW] * lost)
+        self.counts.update([UNKNOWN_WALLS_ONLY] * lost)
         if self.relocalisation.update(reading.scan, self.relocalise and lost):
             known, new = self._associate(found)
         self._update(reading.scan, known, new)
-        self.merged += merge_pieces(self.filter, self.extents)
+        self.merged += merge_same_wall_landmarks(self.filter, self.extents)
         self.points.add(transform(self.filter.pose, reading.scan.points()))
 
     def _associate(self, found):
-        """Data association: observations of confirmed walls, as id to Line, and the others."""
+        """Associate the observed Lines: return {id: Line} of confirmed walls, and the new Lines."""
         if not found or not self.filter.ids:
             return {}, found
         z, R = (np.array([getattr(line, name) for line in found]) for name in "zR")
@@ -165,20 +156,19 @@ class WallSlam(Estimator):
                 new.append(line)
             elif distance <= GATE and i not in known:
                 known[i] = line
-            else:  # a second piece of the wall, or one that fits it badly
+            else:  # a second segment of the wall, or outside the gate
                 self.ambiguous += 1
         return known, new
 
     def _update(self, scan, known, new):
-        """Correct by known walls, augment by newly confirmed ones, extend what was seen of each."""
         if known:
             z, R = (np.array([getattr(line, name) for line in known.values()]) for name in "zR")
             self.filter.update(list(known), z, R)
         pose = self.filter.pose
         placed = [(g_line(pose, line.z), transform(pose, line.ends)) for line in new]
-        # the first scan lays the map's frame: what it shows is surest there, and waits for nothing
+        # the first scan defines the map frame, so its walls are confirmed at once
         first, self._started = not self._started, True
-        confirmed = [True] * len(new) if first else self.tentative.sight(placed)
+        confirmed = [True] * len(new) if first else self.tentative.update(placed)
         for line, due in zip(new, confirmed, strict=True):
             if due:
                 i, self._next = self._next, self._next + 1
@@ -193,26 +183,17 @@ class WallSlam(Estimator):
             self.extents[i] = union(self.extents[i], split_at_gaps(along))
 
 
+def observed_walls(scan, sensor, rng, ransac=None):
+    """Extract the Lines of a scan by RANSAC or by a sonar's cone model; most points first."""
+    if sensor.half_cone:
+        return sonar_lines(scan, sensor)
+    if ransac is None and sensor.range_max < SHORT_RANGE:
+        ransac = SHORT_RANGE_RANSAC
+    return lines(scan, sensor, rng, ransac)
+
+
 def for_source(slam, source, rng=None):
-    """Make an EKF-SLAM estimator with walls for a source.
-
-    Parameters
-    ----------
-    slam : callable(robot, sensor, rng), such as WallSlam or FootSlam
-    source : Source
-    rng : numpy.random.Generator, seed 0 when None
-
-    Returns
-    -------
-    Estimator
-
-    Raises
-    ------
-    ValueError : no reading holds a scan
-    """
+    """Return the estimator ``slam(robot, sensor, rng)`` for a source that has scans."""
     if len(source) and all(reading.scan is None for reading in source):
-        raise ValueError(f"{source.name} holds no scans, which walls need; sim:situation-1 does")
+        raise ValueError(f"{source.name} has no scans to find walls in; sim:situation-1 has scans")
     return slam(source.robot, source.sensor, rng or np.random.default_rng(0))
-
-
-DOUBT = AMBIGUITY_GATE  # name in the first edition

@@ -1,20 +1,22 @@
-"""Evaluation: trajectory errors (ATE, RPE, relations), consistency (NEES, NIS), wall extraction.
+"""Evaluation: trajectory errors, consistency, wall extraction.
 
 Read in this order:
 
-- ``trajectory_error``: ATE and RPE; ``relations``: where no full ground truth is known
-- ``consistency``: NEES, NIS, χ² band; ``pose_nees``: of poses, along arcs
-- ``correlation_matrix``: a covariance free of units
-- ``wall_extraction``: recall and precision; ``tum_files``: trajectories as files
+- ``time_association``: pairs of timestamps; ``trajectory_error``: ATE and RPE
+- ``text_table``: numbers in text files; ``relations``: relative ground truth
+- ``trajectory_files``, ``trajectory_formats``: TUM, EuRoC, KITTI; ``planar_projection``: 3-D poses
+- ``consistency``: NEES, NIS; ``pose_nees``: twist; ``correlation_matrix``; ``containment``: boxes
+- ``wall_extraction_metrics``: recall and precision of line extraction
 """
 
 from slamlab.evaluation.consistency import Consistency, band, consistency, nees, nis
+from slamlab.evaluation.containment import inside, outside
 from slamlab.evaluation.correlation_matrix import correlation
 from slamlab.evaluation.pose_nees import pose_nees, twist
 from slamlab.evaluation.relations import Relations, RelationsError, load_relations, relations_error
 from slamlab.evaluation.trajectory_error import TrajectoryError, absolute_error, relative_error
-from slamlab.evaluation.tum_files import load_tum, save_tum
-from slamlab.evaluation.wall_extraction import precision_metres, recall_metres
+from slamlab.evaluation.trajectory_files import load_trajectory, save_tum
+from slamlab.evaluation.wall_extraction_metrics import precision_metres, recall_metres
 
 __all__ = [
     "Consistency",
@@ -25,10 +27,12 @@ __all__ = [
     "band",
     "consistency",
     "correlation",
+    "inside",
     "load_relations",
-    "load_tum",
+    "load_trajectory",
     "nees",
     "nis",
+    "outside",
     "pose_nees",
     "precision_metres",
     "recall_metres",

@@ -1,9 +1,5 @@
-"""NEES of poses along arcs: the error as the twist that leads from the estimate to the truth, log.
-
-A heading in error bends the spread of places into an arc (a "banana"), which no ellipse in x and y
-holds, though the noise be right. In the coordinates of the twist the spread stays straight (Long,
-Wolfe, Mashner, Chirikjian 2012, "The banana distribution is Gaussian").
-"""
+"""NEES of poses by the twist (logarithm of SE(2)). The density of the twist is closer to a Gaussian
+than the density of the positions, the "banana" (Long et al. 2012)."""
 
 import numpy as np
 
@@ -12,9 +8,7 @@ from slamlab.geometry import between
 
 
 def twist(motion):
-    """Logarithm of SE(2): the twist that in unit time makes a motion, along one arc.
-
-    [v_x, v_y] = (θ/2) [[cot(θ/2), 1], [−1, cot(θ/2)]] [x, y], and θ as it is.
+    """Compute the logarithm of SE(2): [v_x, v_y] = (θ/2) [[cot(θ/2), 1], [−1, cot(θ/2)]] [x, y].
 
     Parameters
     ----------
@@ -22,7 +16,7 @@ def twist(motion):
 
     Returns
     -------
-    (..., 3) [m, m, rad]
+    (..., 3) [m, m, rad], the twist of the motion in unit time
     """
     x, y, theta = np.moveaxis(np.asarray(motion, dtype=float), -1, 0)
     half = theta / 2
@@ -31,14 +25,13 @@ def twist(motion):
 
 
 def pose_nees(poses, P, truth):
-    """NEES of poses along arcs: of the twist from each estimate to the truth.
-
-    To first order the twist is the error turned into the robot's frame, and so is its covariance.
+    """Compute the NEES of the twist from each estimate to the truth; to first order, the twist is
+    the error in the robot's frame.
 
     Parameters
     ----------
     poses, truth : (..., 3) [m, m, rad]
-    P : (..., 3, 3) covariance of the poses, in the frame of the map
+    P : (..., 3, 3) covariance of the poses, in the map's frame
 
     Returns
     -------
@@ -46,7 +39,7 @@ def pose_nees(poses, P, truth):
 
     Raises
     ------
-    ValueError : shapes that do not fit, or a P that is not positive definite
+    ValueError : as :func:`nees`
     """
     poses = np.asarray(poses, dtype=float)
     c, s = np.cos(poses[..., 2]), np.sin(poses[..., 2])

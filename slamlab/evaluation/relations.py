@@ -1,31 +1,31 @@
-"""Relations error (Kümmerle et al. 2009), a relative pose error against ground-truth relations.
-
-A file of relations has one a line: ``t1 t2 x y z roll pitch yaw``, the pose at t2 seen from that at
-t1 [s, s, m, m, m, rad, rad, rad]. No frame has to be aligned and no old error is counted twice.
-"""
+"""Relations error (Kümmerle et al. 2009), a metric of relative poses. A line of a file is ``t1 t2 x
+y z roll pitch yaw``: the pose at t2 relative to the pose at t1 [s, s, m, m, m, rad, rad, rad]."""
 
 from collections import Counter
 from dataclasses import dataclass, field
 
 import numpy as np
 
-from slamlab.files.errors import SourceError
-from slamlab.files.published_recordings import resolve
-from slamlab.files.text_files import lines, read_bytes
+from slamlab.evaluation.text_table import TextTable, named_columns
+from slamlab.evaluation.time_association import explanation, nearest_timestamps
+from slamlab.files import SourceError
 from slamlab.geometry import between, wrap
+from slamlab.sources.public_datasets import resolve
 
-TIME_TOLERANCE = 0.002  # most that a relation's stamp and a pose's differ [s]
+TIME_TOLERANCE = 0.002  # largest difference of the timestamps of a relation and a pose [s]
+NAMES = {name: (name,) for name in ("t1", "t2", "x", "y", "z", "roll", "pitch", "yaw")}
+ROW = f"relation: a row has 8 numbers, {' '.join(NAMES)} [s, m, rad]"
 
 
 @dataclass(frozen=True)
 class Relations:
-    """Ground-truth relations: trusted relative poses between two timestamps.
+    """Ground-truth relations: each is a relative pose between two timestamps.
 
     Parameters
     ----------
     stamps : (n, 2) t1 and t2 [s]
-    poses : (n, 3) the pose at t2 seen from that at t1 [m, m, rad]
-    damage : Counter, lines that could not be used, by kind
+    poses : (n, 3) at t2, relative to that at t1 [m, m, rad]
+    damage : Counter, unusable rows by kind
     """
 
     stamps: np.ndarray
@@ -35,11 +35,11 @@ class Relations:
 
 @dataclass(frozen=True)
 class RelationsError:
-    """Relations error of a trajectory: mean and standard deviation over relations.
+    """Relations error of a trajectory: mean and standard deviation.
 
     Parameters
     ----------
-    count : int, relations that could be used
+    count : int, used relations: both timestamps have a pose
     translation, translation_std : float [m]
     rotation, rotation_std : float [rad]
     """
@@ -52,11 +52,11 @@ class RelationsError:
 
 
 def load_relations(path):
-    """Load relations from a file, plain or gzip.
+    """Load relations from rows t1 t2 x y z roll pitch yaw or from columns that a header names.
 
     Parameters
     ----------
-    path : str or Path, or a recording's name
+    path : str or Path, plain or gzip, or a recording's name
 
     Returns
     -------
@@ -64,38 +64,42 @@ def load_relations(path):
 
     Raises
     ------
-    SourceError : the file cannot be read or holds no relation
+    SourceError : no relation, or headings in degrees
     """
-    content, truncated = read_bytes(resolve(path))
-    damage, rows = Counter({"file torn": 1} if truncated else {}), []
-    for line, ended in lines(content):
-        if not line.strip() or line.lstrip().startswith(b"#"):
-            continue
-        try:
-            row = [float(word) for word in line.split()]
-        except ValueError:
-            row = []
-        if len(row) != 8 or not np.isfinite(row).all() or (truncated and not ended):
-            damage["lines that are no relation"] += 1
-        else:
-            rows.append(row)
-    if not rows:
-        raise SourceError(f"{path} holds no relation: a line reads t1 t2 x y z roll pitch yaw")
-    table = np.array(rows)
-    return Relations(table[:, :2], table[:, [2, 3, 7]], damage)
+    table = TextTable(resolve(path), ROW)
+    columns = {name: (i, None) for i, name in enumerate(NAMES)}
+    for header in table.headers:
+        found = named_columns(header, NAMES)
+        if {"t1", "t2", "x", "y", "yaw"} <= set(found) and len(header.names) == table.width:
+            columns = found
+    if max(i for i, _ in columns.values()) >= table.width:
+        raise SourceError(f"{path}, {table.width} numbers in a row, contains no {ROW}")
+    numbers, values = table.read((i for i, _ in columns.values()), "rows that are not relations")
+    if not len(values):
+        raise SourceError(f"{path} ({table.damage_summary()}) contains no {ROW}")
+    values = values * [factor or 1.0 for _, factor in columns.values()]
+    got = dict(zip(columns, values.T, strict=True))
+    turned = np.flatnonzero(np.abs(got["yaw"]) > 2 * np.pi)
+    if len(turned):
+        raise SourceError(
+            f"{path}, read as relations, line {numbers[turned[0]]}: a yaw of "
+            f"{got['yaw'][turned[0]]:.4g} is not an angle in radians; if it is in degrees, "
+            "multiply it by π/180"
+        )
+    stamps = np.column_stack([got["t1"], got["t2"]])
+    poses = np.column_stack([got["x"], got["y"], got["yaw"]])
+    return Relations(stamps, poses, table.damage)
 
 
 def relations_error(trajectory, relations, tolerance=TIME_TOLERANCE):
-    """Relations error (Kümmerle): mean translational and rotational relative pose error.
-
-    e = δ* ⊖ (x_2 ⊖ x_1) for each relation δ*, its length [m] and its turn [rad]
-    (Kümmerle et al. 2009, "On measuring the accuracy of SLAM algorithms", equation 3).
+    """Compute the mean translation and rotation of e = δ* ⊖ (x_2 ⊖ x_1) over relations δ* (Kümmerle
+    et al. 2009, equation 3).
 
     Parameters
     ----------
-    trajectory : Trajectory
+    trajectory : Trajectory, times [s], poses [m, m, rad]
     relations : Relations
-    tolerance : float, largest difference between a relation's stamp and a pose's [s]
+    tolerance : float, largest difference of the timestamps of a relation and a pose [s]
 
     Returns
     -------
@@ -103,7 +107,7 @@ def relations_error(trajectory, relations, tolerance=TIME_TOLERANCE):
 
     Raises
     ------
-    ValueError : no relation has both stamps in the trajectory
+    ValueError : no relation has both timestamps in the trajectory
     """
     pairs, wanted = usable_relations(trajectory.times, relations, tolerance)
     error = relation_residuals(trajectory.poses, pairs, wanted)
@@ -114,69 +118,23 @@ def relations_error(trajectory, relations, tolerance=TIME_TOLERANCE):
 
 
 def usable_relations(times, relations, tolerance=TIME_TOLERANCE, what="a pose"):
-    """Relations both of whose stamps have a pose or a reading near.
-
-    Parameters
-    ----------
-    times : (n,) [s]
-    relations : Relations
-    tolerance : float, largest difference of a stamp and its time [s]
-    what : str, what the times are of, for the error
-
-    Returns
-    -------
-    (k, 2) int, which poses each is of, and (k, 3) the relations [m, m, rad]
-
-    Raises
-    ------
-    ValueError : there is none
-    """
-    index, gap = nearest_in_time(times, relations.stamps)
-    # half a microsecond more: stamps have six decimals
+    """Select the relations whose timestamps are both near ``times`` (n,) [s] of ``what``: return
+    (k, 2) indices of times, and the relations (k, 3). Raises ValueError if none is usable."""
+    index, gap = nearest_timestamps(times, relations.stamps)
+    # half a microsecond more, because timestamps have six decimals
     usable = (gap <= tolerance + 5e-7).all(axis=1)
     if not usable.any():
+        # unique: many relations share timestamps
+        series = np.unique(times), np.unique(relations.stamps)
+        why = explanation(*series, tolerance, ("the log", "the file of relations"))
         raise ValueError(
-            f"none of the {len(usable)} relations has both stamps within {1e3 * tolerance:g} ms of "
-            f"{what}: do they belong to this log?"
+            f"none of the {len(usable)} relations has both timestamps within {1e3 * tolerance:g} "
+            f"ms of {what}: do they belong to this log?{why and f' If so, {why}'}"
         )
     return index[usable], relations.poses[usable]
 
 
 def relation_residuals(poses, pairs, relations):
-    """Residuals δ* ⊖ (x_j ⊖ x_i) of relations δ*.
-
-    Parameters
-    ----------
-    poses : (n, 3) [m, m, rad]
-    pairs : (k, 2) int, i and j
-    relations : (k, 3) [m, m, rad]
-
-    Returns
-    -------
-    (k, 3) [m, m, rad]
-    """
+    """Return residuals (k, 3) δ* ⊖ (x_j ⊖ x_i) of relations (k, 3); ``pairs`` (k, 2) are i, j."""
     first, second = poses[pairs].transpose(1, 0, 2)
     return between(relations, between(first, second))
-
-
-def nearest_in_time(times, stamps):
-    """Timestamp association: index of the time nearest to each stamp, and how far off it is.
-
-    Parameters
-    ----------
-    times : (n,) [s], in any order, n >= 1
-    stamps : (...) [s]
-
-    Returns
-    -------
-    (...) int, (...) [s]
-    """
-    order = np.argsort(times, kind="stable")
-    ordered = times[order]
-    right = np.clip(np.searchsorted(ordered, stamps), 1, max(1, len(times) - 1))
-    left = right - 1
-    right = np.minimum(right, len(times) - 1)
-    nearer = np.where(
-        np.abs(ordered[left] - stamps) <= np.abs(ordered[right] - stamps), left, right
-    )
-    return order[nearer], np.abs(ordered[nearer] - stamps)

@@ -1,25 +1,23 @@
-"""Trajectory errors: absolute trajectory error (ATE, APE) and relative pose error (RPE).
-
-The first poses are laid on each other; there is no least-squares alignment (Umeyama).
-"""
+"""Absolute trajectory error (ATE, APE) and relative pose error (RPE) against the ground truth."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
+from slamlab.evaluation.time_association import TOLERANCE, associated
 from slamlab.geometry import between, wrap
-from slamlab.readings import Trajectory
 
 
 @dataclass(frozen=True)
 class TrajectoryError:
-    """Trajectory error statistics: root mean square (RMSE) and largest.
+    """Root mean square (RMSE) and maximum of a trajectory error.
 
     Parameters
     ----------
     count : int, poses or steps compared
     translation, translation_max : float [m]
     rotation, rotation_max : float [rad]
+    of : int, poses or steps of the estimate, with or without a true pose at their time
     """
 
     count: int
@@ -27,16 +25,17 @@ class TrajectoryError:
     translation_max: float
     rotation: float
     rotation_max: float
+    of: int
 
 
-def absolute_error(estimate, truth):
-    """Absolute trajectory error (ATE, APE): each pose against the true one, first poses aligned.
-
-    e_i = (x*_0⁻¹ x*_i)⁻¹ (x_0⁻¹ x_i): an error in the first heading cannot hide or spoil the rest.
+def absolute_error(estimate, truth, tolerance=TOLERANCE):
+    """Compute the absolute trajectory error (ATE, APE) of poses associated by time, with the first
+    poses aligned: e_i = (x*_0⁻¹ x*_i)⁻¹ (x_0⁻¹ x_i).
 
     Parameters
     ----------
-    estimate, truth : Trajectory, pose by pose of the same times
+    estimate, truth : Trajectory, times [s], poses [m, m, rad]
+    tolerance : float, most that the times of a pair differ [s]
 
     Returns
     -------
@@ -44,21 +43,22 @@ def absolute_error(estimate, truth):
 
     Raises
     ------
-    ValueError : the trajectories differ in length or are empty
+    ValueError : the times do not match, with the reason: unit, epoch, offset, not ascending
     """
-    estimated, true = _matched_poses(estimate, truth)
-    return _statistics(between(between(true[0], true), between(estimated[0], estimated)))
+    estimated, true = _paired_poses(estimate, truth, tolerance)
+    errors = between(between(true[0], true), between(estimated[0], estimated))
+    return _statistics(errors, len(estimate))
 
 
-def relative_error(estimate, truth, steps=1):
-    """Relative pose error (RPE): the motion over some steps against the true one, drift left out.
-
-    e_i = (x*_i⁻¹ x*_{i+k})⁻¹ (x_i⁻¹ x_{i+k})
+def relative_error(estimate, truth, steps=1, tolerance=TOLERANCE):
+    """Compute the relative pose error (RPE) over k steps of poses associated by time: e_i = (x*_i⁻¹
+    x*_{i+k})⁻¹ (x_i⁻¹ x_{i+k}).
 
     Parameters
     ----------
-    estimate, truth : Trajectory, pose by pose of the same times
-    steps : int k, how many poses apart
+    estimate, truth : Trajectory, times [s], poses [m, m, rad]
+    steps : int, k
+    tolerance : float, most that the times of a pair differ [s]
 
     Returns
     -------
@@ -66,27 +66,24 @@ def relative_error(estimate, truth, steps=1):
 
     Raises
     ------
-    ValueError : the trajectories differ in length or are too short
+    ValueError : the times do not match, see :func:`absolute_error`, or too few poses
     """
-    estimated, true = _matched_poses(estimate, truth)
+    estimated, true = _paired_poses(estimate, truth, tolerance)
     if not 1 <= steps < len(true):
-        raise ValueError(f"{len(true)} poses have no motion over {steps} steps")
-    return _statistics(
-        between(
-            between(true[:-steps], true[steps:]), between(estimated[:-steps], estimated[steps:])
-        )
+        raise ValueError(f"steps must be from 1 to {len(true) - 1} for {len(true)} poses")
+    errors = between(
+        between(true[:-steps], true[steps:]), between(estimated[:-steps], estimated[steps:])
     )
+    return _statistics(errors, len(estimate) - steps)
 
 
-def _matched_poses(estimate: Trajectory, truth: Trajectory):
-    if len(estimate) != len(truth) or len(truth) == 0:
-        raise ValueError(
-            f"{len(estimate)} estimated and {len(truth)} true poses cannot be compared one by one"
-        )
-    return estimate.poses, truth.poses
+def _paired_poses(estimate, truth, tolerance):
+    names = "the estimate", "the truth"
+    first, second = associated(estimate.times, truth.times, tolerance, names).T
+    return estimate.poses[first], truth.poses[second]
 
 
-def _statistics(errors):
+def _statistics(errors, of):
     distance, turn = np.hypot(errors[:, 0], errors[:, 1]), np.abs(wrap(errors[:, 2]))
     return TrajectoryError(
         len(errors),
@@ -94,4 +91,5 @@ def _statistics(errors):
         float(distance.max()),
         float(np.sqrt(np.mean(turn**2))),
         float(turn.max()),
+        of,
     )

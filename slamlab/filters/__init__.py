@@ -2,13 +2,11 @@
 
 Read in this order:
 
-- ``linear_kalman``; ``ekf_localisation`` and ``known_pose_mapping``, the two halves of SLAM
-- ``mak``: EKF-SLAM, on ``augmented_state``, ``landmark_models``, ``update_result``
-- ``data_association``: which landmark was seen; ``merging``: two that are one; ``relative_map``,
-  ``triangular_covariance``
-- ``compressed_ekf``, ``submaps`` (map joining): the same belief at less cost
-- ``bor``: set-membership filtering with boxes; ``montecarlo``: particle filters
-- ``argument_checks``: what a filter refuses
+- ``kalman_filter``; ``ekf_localisation`` and ``known_pose_mapping``: the two halves of SLAM
+- ``ekf_slam_filter``: EKF-SLAM, on ``augmented_state``, ``triangular_covariance`` (packed
+  covariance) and ``landmark_models``; ``data_association``: validation gate
+- ``landmark_merging``: duplicates; ``relative_map``; ``compressed_ekf`` and ``submap_joining``
+- ``set_membership``: boxes; ``particle_filters``; ``argument_checks``: validation of arguments
 """
 
 from slamlab._lazy import exports
@@ -16,16 +14,16 @@ from slamlab._lazy import exports
 __all__ = exports(
     __name__,
     {
-        ".bor": ["BOR", "EmptyIntersection"],
-        ".compressed_ekf": ["CompressedMAK"],
-        ".linear_kalman": ["Belief"],
+        ".set_membership": ["BOR", "EmptyIntersection"],
+        ".compressed_ekf": ["CompressedEKF"],
+        ".kalman_filter": ["Belief"],
         ".known_pose_mapping": ["KnownPoseMap"],
         ".landmark_models": ["LandmarkModel"],
-        ".mak": ["MAK"],
-        ".montecarlo.fastslam": ["FastSLAM"],
-        ".montecarlo.mcl": ["MCL"],
-        ".montecarlo.particles": ["ParticleSet"],
-        ".montecarlo.sample_sets": ["SampleSets"],
-        ".submaps": ["JoinedMap"],
+        ".ekf_slam_filter": ["MAK"],
+        ".particle_filters.fastslam": ["FastSLAM"],
+        ".particle_filters.monte_carlo_localisation": ["MCL"],
+        ".particle_filters.particle_set": ["ParticleSet"],
+        ".particle_filters.independent_particle_sets": ["IndependentParticleSets"],
+        ".submap_joining": ["JoinedMap"],
     },
 )

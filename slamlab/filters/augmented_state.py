@@ -1,4 +1,4 @@
-"""State augmentation: robot and landmarks in one state [x_r p_1 … p_N], mean and covariance."""
+"""State augmentation: joint state [x_r p_1 … p_N] of robot and landmarks, mean and covariance."""
 
 from copy import copy
 
@@ -11,18 +11,7 @@ ROBOT_ROWS = np.arange(3)  # of the pose x, y, θ in the state
 
 
 class AugmentedState:
-    """Augmented state: robot pose and landmarks in one joint Gaussian, in preallocated memory.
-
-    Parameters
-    ----------
-    x : (3,) pose at the start [m, m, rad]
-    P : (3, 3) its covariance
-    capacity : int, landmarks to allocate memory for; more may come
-
-    Raises
-    ------
-    ValueError
-    """
+    """Joint Gaussian of the robot's pose and all landmarks, in preallocated memory."""
 
     def __init__(self, x, P, capacity):
         self._P = TriangularCovariance(covariance("P", P, 3), 3 + 2 * capacity)
@@ -52,24 +41,11 @@ class AugmentedState:
         return list(self._row)
 
     def landmarks(self):
-        """(N, 2) landmark means [m], a copy."""
+        """Return the landmark means (N, 2) [m], a copy."""
         return self.x[3:].reshape(-1, 2).copy()
 
     def rows(self, ids):
-        """State rows (indices) of landmarks in x and P.
-
-        Parameters
-        ----------
-        ids : (m,) ids
-
-        Returns
-        -------
-        (2m,) int
-
-        Raises
-        ------
-        ValueError : an id that is not in the map, or one twice
-        """
+        """Return rows (2m,) of landmarks in x and P. ValueError for unknown or repeated ids."""
         ids = unique_ids(ids)
         try:
             first = [self._row[i] for i in ids]
@@ -79,16 +55,11 @@ class AugmentedState:
         return np.array([row for i in first for row in (i, i + 1)], dtype=int)
 
     def block(self, rows):
-        """(k, k) covariance block of some rows of the state, such as those of :meth:`rows`."""
+        """Return the covariance block (k, k) of given rows of the state; see :meth:`rows`."""
         return self._P.block(np.asarray(rows))
 
     def blocks(self):
-        """Covariance blocks of the robot and each landmark, cross-covariances included; O(N).
-
-        Returns
-        -------
-        P_rr (3, 3), P_ir (N, 2, 3), P_ii (N, 2, 2), copies
-        """
+        """Return blocks P_rr (3, 3), P_ir (N, 2, 3), P_ii (N, 2, 2) of the covariance, in O(N)."""
         L = self._P.lower
         i = np.arange(3, self._P.n, 2)
         P_ii = np.empty((len(i), 2, 2))
@@ -97,20 +68,7 @@ class AugmentedState:
         return self.block(ROBOT_ROWS), L[3:, :3].reshape(-1, 2, 3), P_ii
 
     def marginal(self, ids):
-        """Marginal state of the robot and some landmarks (the others marginalised out).
-
-        Parameters
-        ----------
-        ids : (k,) which
-
-        Returns
-        -------
-        of the same class
-
-        Raises
-        ------
-        ValueError
-        """
+        """Return the marginal distribution of the robot and some landmarks, as the same class."""
         ids = unique_ids(ids)
         landmarks = self.rows(ids)
         rows = np.concatenate([ROBOT_ROWS, landmarks])
@@ -121,16 +79,7 @@ class AugmentedState:
         return part
 
     def remove(self, ids):
-        """Remove landmarks (marginalise them out); no other mean or covariance changes.
-
-        Parameters
-        ----------
-        ids : (k,) which
-
-        Raises
-        ------
-        ValueError
-        """
+        """Marginalise out (remove) landmarks; the other means and covariances do not change."""
         ids = unique_ids(ids)
         rows = self.rows(ids)
         x = np.delete(self.x, rows)
@@ -142,7 +91,7 @@ class AugmentedState:
         self._row = {i: 3 + 2 * j for j, i in enumerate(left)}
 
     def _augment(self, ids, p, cross, corner):
-        """State augmentation by landmarks p (k, 2), with cross-covariance and own covariance."""
+        """Augment the state by landmarks p (k, 2), given their cross-covariance and covariance."""
         n = self._P.n
         self._P.append(cross, corner)
         if self._P.n > len(self._x):
@@ -152,17 +101,15 @@ class AugmentedState:
         self._row.update({i: n + 2 * j for j, i in enumerate(ids)})
 
     def _first_estimates_of(self, rows):
-        """(m, 2) first estimates of the landmarks of :meth:`rows` [m]."""
         return self._first_estimates[_landmark_numbers(rows)]
 
 
 def _landmark_numbers(rows):
-    """Numbers of the landmarks in these state rows, counted from the first."""
     return (rows[::2] - 3) // 2
 
 
 def unique_ids(ids):
-    """Landmark ids of one scan as a list, checked for duplicates (ValueError names them)."""
+    """Return the landmark ids of one scan as a list. Raises ValueError if an id is repeated."""
     ids = list(ids)
     if len(set(ids)) < len(ids):
         twice = sorted({i for i in ids if ids.count(i) > 1})

@@ -1,24 +1,22 @@
-"""The compressed EKF (CEKF): filter in a local region, update the global map later, exactly.
+"""Compressed EKF (CEKF): filters in a local region, and later updates the global map exactly.
 
-Guivant & Nebot (2001), named by the MAK thesis in chapter 5. While only landmarks of a region A are
-observed, the others (B) depend on three small sums φ, ψ, θ; the global update is:
-
-    P_AB ← φ P_AB,   P_BB ← P_BB − P_BA ψ P_AB,   x_B ← x_B + P_BA θ
+Guivant & Nebot (2001). While only landmarks of a region A are observed, three small sums φ, ψ, θ
+suffice to update the others (B): P_AB ← φ P_AB,  P_BB ← P_BB − P_BA ψ P_AB,  x_B ← x_B + P_BA θ.
 """
 
 import numpy as np
 from scipy.linalg.blas import dtrsm, dtrsv
 
 from slamlab.filters.augmented_state import ROBOT_ROWS
-from slamlab.filters.mak import MAK
+from slamlab.filters.ekf_slam_filter import MAK
 
 
-class CompressedMAK:
-    """Compressed EKF-SLAM: pays for the global map only when the robot changes region.
+class CompressedEKF:
+    """Compressed EKF-SLAM, which updates the global map only when the robot changes regions.
 
     Parameters
     ----------
-    mak : MAK, the whole; out of date for landmarks outside the region until :meth:`settle`
+    mak : MAK, the global map; outside the region it is out of date until :meth:`settle`
     """
 
     def __init__(self, mak: MAK):
@@ -27,27 +25,13 @@ class CompressedMAK:
 
     @property
     def local(self) -> MAK:
-        """The local filter of the active region; read it, but predict and update this class.
-
-        Raises
-        ------
-        ValueError : no region was chosen
-        """
+        """The filter of the active region, read-only. Raises ValueError if no region is active."""
         if self._local is None:
-            raise ValueError("no region: call focus with the ids of the landmarks around first")
+            raise ValueError("no region is active: call focus with the ids of its landmarks first")
         return self._local
 
     def focus(self, ids):
-        """Choose the active region (local map), after the global update of the one before.
-
-        Parameters
-        ----------
-        ids : landmarks that will be observed next
-
-        Raises
-        ------
-        ValueError : an id that is not in the map
-        """
+        """Settle the last region, then activate the region that consists of the given landmarks."""
         rows = self.whole.rows(ids)
         self.settle()
         self._rows = np.concatenate([ROBOT_ROWS, rows])
@@ -56,18 +40,14 @@ class CompressedMAK:
         self._phi, self._psi, self._theta = np.eye(n), np.zeros((n, n)), np.zeros(n)
 
     def predict(self, x, Q):
-        """EKF prediction in the local region as by :meth:`MAK.predict`: φ ← A φ."""
+        """Predict the local region, like :meth:`MAK.predict`: φ ← A φ."""
         A = self.local.predict(x, Q)
         self._phi[:3] = A @ self._phi[:3]
 
     def update(self, ids, z, R):
-        """EKF measurement update in the local region, as by :meth:`MAK.update`.
+        """Update the local region by a measurement, like :meth:`MAK.update`.
 
         ψ ← ψ + φᵀ Hᵀ S⁻¹ H φ,  θ ← θ + φᵀ Hᵀ S⁻¹ v,  φ ← (I − K H) φ
-
-        Returns
-        -------
-        UpdateResult, of the region's state
         """
         step = self.local.update(ids, z, R)
         H_phi = step.H @ self._phi[step.columns]
@@ -78,7 +58,7 @@ class CompressedMAK:
         return step
 
     def settle(self):
-        """Global update: bring every landmark outside the region up to date. Equation (07.14)."""
+        """Bring every landmark outside the region up to date (global update). Equation (07.14)."""
         if self._local is None:
             return
         whole, A = self.whole, self._rows

@@ -1,39 +1,20 @@
-"""Data association: nearest neighbour by Mahalanobis distance, in a chi-square (χ²) gate.
-
-One observation of landmark i touches the robot and p_i only: its innovation covariance needs the
-5 × 5 block of P over both, so that gating tries all N landmarks in O(N).
-"""
+"""Data association: nearest neighbour (Mahalanobis distance) in a chi-squared validation gate."""
 
 from math import log
 
 import numpy as np
 
 from slamlab.filters.argument_checks import observations
+from slamlab.filters.landmark_models import difference
 from slamlab.geometry import wrap
 
-BISECTOR_GATE = np.radians(30)  # corners of one map that might be confused differ by 90° or 180°
+BISECTOR_GATE = np.radians(30)  # similar corners of one map differ by 90° or 180°
 
 
 def squared_distances(mak, z, R):
-    """Squared Mahalanobis distance vᵀ S⁻¹ v of every observation to every landmark.
-
-    The square of equation (08.11).
+    """Squared Mahalanobis distances (m, N) vᵀ S⁻¹ v, the squares of equation (08.11), in O(N).
 
     S_i = H_r P_rr H_rᵀ + H_r P_ri H_pᵀ + (H_r P_ri H_pᵀ)ᵀ + H_p P_ii H_pᵀ + R
-
-    Parameters
-    ----------
-    mak : MAK of N landmarks
-    z : (m, 2) range [m], bearing [rad]
-    R : (2, 2) measurement noise of each, or (m, 2, 2)
-
-    Returns
-    -------
-    (m, N), columns in the order of ``mak.ids``
-
-    Raises
-    ------
-    ValueError
     """
     z, R = observations(z, R)
     P_rr, P_ir, P_ii = mak.blocks()
@@ -42,8 +23,7 @@ def squared_distances(mak, z, R):
     cross = H_p @ P_ir @ H_r.transpose(0, 2, 1)
     HPHt = H_r @ P_rr @ H_r.transpose(0, 2, 1) + H_p @ P_ii @ H_p.transpose(0, 2, 1)
     HPHt += cross + cross.transpose(0, 2, 1)
-    v = z[:, None] - mak.kind.h(mak.pose, p)
-    v[..., 1] = wrap(v[..., 1])
+    v = difference(z[:, None], mak.kind.h(mak.pose, p))
     S = HPHt + np.broadcast_to(R, (len(z), 2, 2))[:, None]
     a, b, d = S[..., 0, 0], S[..., 0, 1], S[..., 1, 1]
     r, beta = v[..., 0], v[..., 1]
@@ -51,41 +31,18 @@ def squared_distances(mak, z, R):
 
 
 def compatible_corners(bisectors, convex, known_bisectors, known_convex, gate=BISECTOR_GATE):
-    """Which corners may be one and the same: they open in one direction, and both out or both in.
-
-    A landmark's bisector is compared, not measured: a heading corrected by it, too, would be held
-    for surer than it is, as bisector and place come from the same two lines.
-
-    Parameters
-    ----------
-    bisectors, known_bisectors : (m,) and (N,) directions in one frame [rad], NaN where no corner is
-    convex, known_convex : (m,) and (N,) bool
-    gate : float, most that bisectors of one corner differ [rad]
-
-    Returns
-    -------
-    (m, N) bool
-    """
+    """Find compatible corners: mask (m, N), bisectors [rad] within the gate, equal convexity."""
+    # not used as a measurement: bisector and position come from the same lines, so the heading
+    # would become overconfident
     apart = np.abs(wrap(np.subtract.outer(bisectors, known_bisectors)))
     return (apart <= gate) & np.equal.outer(convex, known_convex)
 
 
 def gated_nearest_neighbours(d2, gate=13.8, new_landmark_gate=4 * 13.8):
-    """Greedy nearest-neighbour data association: closest pair first, each landmark at most once.
+    """Associate each row greedily with its nearest neighbour in a gate, the closest pair first.
 
-    Inside the gate of a landmark it is that landmark, beyond the wider gate of all it is new;
-    between the two it is ambiguous, neither paired nor new.
-
-    Parameters
-    ----------
-    d2 : (m, N) squared Mahalanobis distances, see :func:`squared_distances`
-    gate : float; chi-square gate, χ² of 2 degrees: a true pairing fails 13.8 once in a thousand
-    new_landmark_gate : float, squared distance beyond which an observation is a new landmark
-
-    Returns
-    -------
-    {row: column}, observation to landmark
-    list of rows that are new landmarks
+    ``d2`` : (m, N); each column is used at most once. Returns the pairs {row: column} inside the
+    gate (13.8: 99.9 % of the true pairs pass), and the rows outside all gates for new landmarks.
     """
     pairs, left = {}, np.array(d2, dtype=float)
     new = np.flatnonzero(left.min(axis=1, initial=np.inf) > new_landmark_gate).tolist()
@@ -97,33 +54,12 @@ def gated_nearest_neighbours(d2, gate=13.8, new_landmark_gate=4 * 13.8):
 
 
 def nearest_neighbours(mak, z, R, probability=0.99):
-    """Nearest-neighbour association: the id of the nearest landmark within the gate, or None.
-
-    Two observations of one scan may name the same landmark; the caller decides between them.
-
-    Parameters
-    ----------
-    mak : MAK
-    z : (m, 2) range [m], bearing [rad]
-    R : (2, 2) measurement noise of each, or (m, 2, 2)
-    probability : float, of a true pairing to pass the gate: χ² with 2 degrees of freedom
-
-    Returns
-    -------
-    list of m ids or None
-
-    Raises
-    ------
-    ValueError
-    """
+    """Return ids of the landmarks nearest to z (m, 2), even repeated; None outside the χ² gate."""
     if not 0 < probability < 1:
-        raise ValueError(f"probability must lie between 0 and 1, got {probability}")
+        raise ValueError(f"probability must be between 0 and 1, got {probability}")
     d2 = squared_distances(mak, z, R)
     ids = mak.ids
     if not ids:
         return [None] * len(d2)
     best, gate = d2.argmin(axis=1), -2 * log(1 - probability)  # χ² of 2 degrees: exponential
     return [ids[i] if row[i] <= gate else None for row, i in zip(d2, best, strict=True)]
-
-
-nearest = nearest_neighbours  # name in the first edition

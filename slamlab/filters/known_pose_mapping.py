@@ -1,39 +1,21 @@
-"""Mapping with known poses: N independent Kalman filters, one a landmark (MAK thesis, 4.2)."""
+"""Mapping with known poses: an independent EKF for each landmark (MAK thesis, 4.2)."""
 
 import numpy as np
 
 from slamlab.filters.argument_checks import covariance, observations, vector
-from slamlab.filters.linear_kalman import Belief, correct
-from slamlab.geometry import wrap
+from slamlab.filters.kalman_filter import Belief, correct
+from slamlab.filters.landmark_models import difference
 from slamlab.models import jacobians, observation
 
 
 class KnownPoseMap:
-    """Landmark map from known poses: one EKF a landmark, uncorrelated; O(1) an observation."""
+    """Feature map from known poses: an uncorrelated EKF for each landmark; ``landmarks`` by id."""
 
     def __init__(self):
         self.landmarks: dict[int, Belief] = {}
 
-    def see(self, x, id, z, R):
-        """Process one observation: initialise a new landmark, or EKF update of a known one.
-
-        Equation (05.8) places it, (05.5) corrects it.
-
-        Parameters
-        ----------
-        x : (3,) the pose, known [m, m, rad]
-        id : int
-        z : (2,) range [m], bearing [rad]
-        R : (2, 2) measurement noise
-
-        Returns
-        -------
-        UpdateResult, or None for a new landmark
-
-        Raises
-        ------
-        ValueError
-        """
+    def update(self, x, id, z, R):
+        """Initialise or update landmarks from a known pose. Equations (05.8), (05.5)."""
         x, R = vector("x", x, 3), covariance("R", R, 2)
         (z,), _ = observations([z], R)
         known = self.landmarks.get(id)
@@ -41,11 +23,10 @@ class KnownPoseMap:
             J_z = jacobians.J_z(x, z)
             self.landmarks[id] = Belief(observation.g(x, z), J_z @ R @ J_z.T)
             return None
-        v = z - observation.h(x, known.x)
-        v[1] = wrap(v[1])
+        v = difference(z, observation.h(x, known.x))
         self.landmarks[id], step = correct(known, v, jacobians.H_landmark(x, known.x), R)
         return step
 
     def points(self):
-        """(n, 2) landmark means [m], in the order of their first observation."""
+        """Return the landmark means (n, 2) [m], in the order of the first observations."""
         return np.array([b.x for b in self.landmarks.values()]).reshape(-1, 2)

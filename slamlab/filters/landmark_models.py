@@ -1,7 +1,4 @@
-"""Landmark models: point landmarks (range and bearing) and line landmarks (walls).
-
-Each gives the observation model h, its inverse g and both Jacobians; two numbers a landmark.
-"""
+"""Landmark models: point landmarks (range and bearing) and line landmarks (walls)."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -12,17 +9,24 @@ from slamlab.geometry import wrap
 from slamlab.models import jacobians, observation
 
 
+def difference(a, b):
+    """Return the difference a − b (..., 2) of observations or lines, second component wrapped."""
+    d = np.subtract(a, b)
+    d[..., 1] = wrap(d[..., 1])
+    return d
+
+
 @dataclass(frozen=True)
 class LandmarkModel:
-    """Observation model of a kind of landmark: h, inverse g, and their Jacobians H and J.
+    """Measurement model of landmarks with two parameters: h, its inverse g, and their Jacobians.
 
     Parameters
     ----------
-    h : (x, p) -> (..., 2) expected observation from a pose; its second component is an angle
-    g : (x, z) -> (..., 2) inverse observation model: the landmarks so observed
-    H : (x, p) -> (..., 2, 3), (..., 2, 2) Jacobians of h by the pose and the landmark
-    J : (x, z) -> (..., 2, 3), (..., 2, 2) Jacobians of g by the pose and the observation
-    minus : (p, q) -> (..., 2) how landmark p differs from q; where a number is an angle, wrapped
+    h : (x, p) -> (..., 2), the second an angle
+    g : (x, z) -> (..., 2)
+    H : (x, p) -> (..., 2, 3), (..., 2, 2), Jacobians of h by pose and landmark
+    J : (x, z) -> (..., 2, 3), (..., 2, 2), Jacobians of g by pose and observation
+    minus : (p, q) -> (..., 2) difference of landmarks, angles wrapped
     """
 
     h: Callable
@@ -37,12 +41,6 @@ def _point_jacobians(x, p):
     return H_r, -H_r[..., :2]
 
 
-def _line_difference(p, q):
-    d = np.subtract(p, q)
-    d[..., 1] = wrap(d[..., 1])
-    return d
-
-
 POINTS = LandmarkModel(
     observation.h,
     observation.g,
@@ -54,8 +52,5 @@ LINES = LandmarkModel(
     observation.g_line,
     lambda x, line: (jacobians.H_robot_line(x, line), jacobians.H_line(x, line)),
     lambda x, z: (jacobians.J_xr_line(x, z), jacobians.J_z_line(x, z)),
-    _line_difference,
+    difference,
 )
-
-
-Kind = LandmarkModel  # name in the first edition

@@ -1,7 +1,6 @@
 """Packed covariance: the lower triangle of a growing symmetric matrix, updated in place.
 
-It lies in a column-major prefix of a flat buffer, allocated ahead. A prefix is contiguous, so BLAS
-works on it without a copy; a block of a larger matrix it would silently copy.
+The triangle is column-major in a contiguous part of a flat buffer, so that BLAS makes no copies.
 """
 
 import numpy as np
@@ -11,13 +10,7 @@ UNIT_ROUNDOFF = float(np.finfo(float).eps) / 2  # u, relative error of a rounded
 
 
 class TriangularCovariance:
-    """Symmetric positive semidefinite matrix of which only the lower triangle is stored.
-
-    Parameters
-    ----------
-    P : (n, n) symmetric
-    capacity : int, rows to allocate memory for
-    """
+    """Symmetric positive semidefinite matrix that stores only its lower triangle."""
 
     def __init__(self, P, capacity=0):
         n = len(P)
@@ -31,21 +24,12 @@ class TriangularCovariance:
         self.diagonal = self._flat[: n * n : n + 1]
 
     def full(self):
-        """(n, n) the full symmetric matrix, a copy with both triangles."""
+        """Return the full symmetric matrix (n, n), a copy with both triangles."""
         L = np.tril(self.lower)
         return L + np.tril(L, -1).T
 
     def columns(self, index):
-        """Full columns of the matrix, gathered from both sides of the diagonal.
-
-        Parameters
-        ----------
-        index : (k,) int array, row numbers
-
-        Returns
-        -------
-        (n, k) column-major
-        """
+        """Return full columns (n, k), gathered from both sides of the diagonal, column-major."""
         L = self.lower
         out = L.T.take(index, axis=0).T
         for k, j in enumerate(index.tolist()):
@@ -53,43 +37,21 @@ class TriangularCovariance:
         return out
 
     def block(self, rows):
-        """Submatrix of some rows and the same columns.
-
-        Parameters
-        ----------
-        rows : (k,) int array
-
-        Returns
-        -------
-        (k, k)
-        """
+        """Return the submatrix (k, k) of the given rows and the same columns."""
         i, j = np.maximum(rows[:, None], rows), np.minimum(rows[:, None], rows)
         return self.lower[i, j]
 
     def downdate(self, B):
-        """Low-rank downdate P ← P − B Bᵀ in place, kept positive semidefinite against rounding.
-
-        Each entry of the result is off by at most γ √(P_ii P_jj) with γ = (m + 2) u, so adding
-        n γ P_ii to the diagonal outweighs whatever rounding did (Higham 2002, §3.5).
-
-        Parameters
-        ----------
-        B : (n, m) column-major
-        """
+        """Downdate P ← P − B Bᵀ in place, semidefinite despite rounding; B column-major."""
         n, m = B.shape
+        # the error of an entry is at most γ √(P_ii P_jj), γ = (m + 2) u; n γ P_ii compensates it
+        # (Higham 2002, §3.5)
         guard = self.diagonal * (n * (m + 2) * UNIT_ROUNDOFF)
         dsyrk(-1.0, B, beta=1.0, c=self.lower, lower=1, overwrite_c=1)
         self.diagonal += guard
 
     def set_rows(self, index, columns, corner):
-        """Overwrite some rows and columns of the symmetric matrix.
-
-        Parameters
-        ----------
-        index : (k,) row numbers
-        columns : (n, k) their columns; entries that fall among themselves are not used
-        corner : (k, k) the entries among themselves
-        """
+        """Overwrite rows (k,) with columns (n, k), their diagonal block with a corner (k, k)."""
         L = self.lower
         for k, j in enumerate(index):
             L[j, :j] = columns[:j, k]
@@ -97,13 +59,7 @@ class TriangularCovariance:
         L[np.ix_(index, index)] = corner
 
     def append(self, cross, corner):
-        """Augment the matrix by k rows and columns.
-
-        Parameters
-        ----------
-        cross : (k, n) the new rows left of the corner
-        corner : (k, k)
-        """
+        """Augment the matrix by k rows: cross (k, n), to the left of the corner (k, k)."""
         n, k = self.n, len(corner)
         old = self.lower
         if (n + k) ** 2 > len(self._flat):
@@ -116,12 +72,7 @@ class TriangularCovariance:
         self.lower[n:, n:] = corner
 
     def delete(self, rows):
-        """Delete (marginalise out) rows and columns.
-
-        Parameters
-        ----------
-        rows : sequence of row numbers
-        """
+        """Delete rows and columns (marginalisation)."""
         keep = np.setdiff1d(np.arange(self.n), rows)
         kept = self.lower[np.ix_(keep, keep)]
         self._resize(len(keep))

@@ -1,10 +1,4 @@
-"""Occupancy grid maps: cells of log-odds that forget what is no longer there.
-
-Read in this order:
-
-- ``ray_traversal``: which cells a beam crosses; ``occupancy_grid``: OccupancyGrid, build
-- ``map_server``: files of ROS map_server
-"""
+"""Occupancy grid maps: ``occupancy_grid``; ROS map_server files: ``map_server``, ``map_yaml``."""
 
 from slamlab.gridmap.occupancy_grid import OccupancyGrid, build
 

@@ -1,14 +1,9 @@
-"""Landmarks from scans: walls' lines by RANSAC, corners, spikes; tentative and confirmed ones.
+"""Landmarks (features) from scans: lines of walls, corners, spikes.
 
 Read in this order:
 
-- ``spikes``: narrow things before a background
-- ``line_fitting``: a line through noisy points; ``ransac``: lines in a scan;
-  ``sampled_lines``: the same as Smolec lists it
-- ``sonar_lines``: lines in a scan of wide beams, by the cone model
-- ``corners``: where two walls meet; ``wall_segments``: a line split at gaps
-- ``tentative_walls``: tentative landmarks until they are confirmed
-- ``downsampling``: points downsampled for drawing
+- ``spikes``; ``line_fitting``: line fits; ``ransac``, ``thesis_line_extraction``: line extraction
+- ``sonar_lines``; ``corners``; ``wall_segments``; ``track_management``; ``downsampling``: voxels
 """
 
 from slamlab._lazy import exports
@@ -18,6 +13,6 @@ __all__ = exports(
     {
         ".line_fitting": ["Line", "fit", "total_least_squares"],
         ".ransac": ["Ransac", "lines"],
-        ".tentative_walls": ["TentativeWalls"],
+        ".track_management": ["TrackManager"],
     },
 )

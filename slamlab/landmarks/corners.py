@@ -1,4 +1,4 @@
-"""Corner extraction: point landmarks where two walls of one scan meet (MAK thesis, chapter 8)."""
+"""Corner extraction: point landmarks where two walls of a scan meet (MAK thesis, chapter 8)."""
 
 from dataclasses import dataclass
 from itertools import combinations
@@ -8,15 +8,7 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Corner:
-    """A corner landmark as a scan shows it: range, bearing, their covariance, and how it opens.
-
-    Parameters
-    ----------
-    z : (2,) range [m] and bearing [rad]
-    R : (2, 2) covariance of z
-    bisector : float, direction between its two walls, in the robot's frame [rad]
-    convex : bool, seen from outside, as of a box; from between its walls it is concave
-    """
+    """A corner: z (range, bearing), its R, ``bisector`` of the walls [rad], whether ``convex``."""
 
     z: np.ndarray
     R: np.ndarray
@@ -25,22 +17,8 @@ class Corner:
 
 
 def corners(lines, reach=0.4, min_angle=0.5):
-    """Extract the corners, intersections of the lines of one scan.
-
-    n_1·p = ρ_1, n_2·p = ρ_2; the slope of p by (ρ, α) of each line carries their covariances.
-    Equation (08.9).
-
-    Parameters
-    ----------
-    lines : list of Line
-    reach : float, how far beyond a wall's seen end its corner may lie [m]
-    min_angle : float, least angle between the walls: a point between nearly parallel ones is
-        hardly known [rad]
-
-    Returns
-    -------
-    list of Corner
-    """
+    """Find intersections of a scan's lines n_1·p = ρ_1, n_2·p = ρ_2 at most ``reach`` [m] from the
+    observed end of each wall, with at least ``min_angle`` [rad] between walls. Equation (08.9)."""
     found = []
     for first, second in combinations(lines, 2):
         if abs(np.sin(first.z[1] - second.z[1])) < np.sin(min_angle):
@@ -52,7 +30,7 @@ def corners(lines, reach=0.4, min_angle=0.5):
 
 
 def _intersection(first, second):
-    """Intersection of two lines (2,) [m], and its covariance (2, 2) [m²]."""
+    """Return the intersection (2,) [m] and its covariance (2, 2) [m²]."""
     (rho1, a1), (rho2, a2) = first.z, second.z
     N = np.array([[np.cos(a1), np.sin(a1)], [np.cos(a2), np.sin(a2)]])
     p = np.linalg.solve(N, [rho1, rho2])
@@ -61,21 +39,20 @@ def _intersection(first, second):
     P = np.zeros((2, 2))
     for k, line in enumerate((first, second)):
         t = np.array([-N[k, 1], N[k, 0]])
-        slope = np.outer(back[:, k], [1.0, -(t @ p)])
-        P += slope @ line.R @ slope.T
+        J = np.outer(back[:, k], [1.0, -(t @ p)])
+        P += J @ line.R @ J.T
     return p, P
 
 
 def _opening(p, *walls):
-    """Bisector of the walls that meet in p [rad], and whether p is convex to who looks from 0."""
+    """Return the bisector [rad] of walls that meet at p, and whether p is convex seen from 0."""
     along = [line.ends.mean(axis=0) - p for line in walls]
-    middle = np.sum([way / np.hypot(*way) for way in along], axis=0)
+    middle = np.sum([direction / np.hypot(*direction) for direction in along], axis=0)
     return float(np.arctan2(middle[1], middle[0])), bool(middle @ p > 0)
 
 
 def _polar(p, P):
-    """A point in the robot's frame as range and bearing z, its covariance P as R."""
     r2, r = p @ p, np.hypot(*p)
     J = np.array([[p[0] / r, p[1] / r], [-p[1] / r2, p[0] / r2]])
     R = J @ P @ J.T
-    return np.array([r, np.arctan2(p[1], p[0])]), (R + R.T) / 2  # rounding aside, its own
+    return np.array([r, np.arctan2(p[1], p[0])]), (R + R.T) / 2

@@ -1,39 +1,25 @@
-"""Downsample a point cloud: no two kept points lie close together (Smolec §4.5)."""
+"""Downsampling of a point cloud to a minimum distance between points (voxel grid; Smolec §4.5)."""
 
 import numpy as np
 
 
 class DownsampledPoints:
-    """A downsampled point cloud: points keep a distance; a grid of cells (voxels) finds neighbours.
-
-    Parameters
-    ----------
-    spacing : float, a point nearer than this to one that is kept is left out [m]
-    """
+    """Points with a minimum distance of ``spacing`` [m], selected by a grid of cells (voxels)."""
 
     def __init__(self, spacing=0.06):
         if not spacing > 0:
-            raise ValueError(f"spacing is above zero, not {spacing}")
+            raise ValueError(f"spacing must be above zero, not {spacing}")
         self.spacing = spacing
         self._cells: dict[tuple[int, int], list[tuple[float, float]]] = {}
         self._points: list[tuple[float, float]] = []
 
     @property
     def xy(self):
-        """(n, 2) the downsampled points, in the order they came [m]."""
+        """The kept points (n, 2) [m], in the order in which they were added."""
         return np.array(self._points).reshape(-1, 2)
 
     def add(self, points):
-        """Add points, downsampled: only those far enough from all that are kept.
-
-        Parameters
-        ----------
-        points : (n, 2) [m]
-
-        Returns
-        -------
-        int, how many were kept
-        """
+        """Add the points of (n, 2) that keep the minimum distance, and return their number."""
         before = len(self._points)
         cells = np.floor(np.asarray(points) / self.spacing).astype(int).tolist()
         for (x, y), (i, j) in zip(np.asarray(points).tolist(), cells, strict=True):
@@ -50,6 +36,3 @@ class DownsampledPoints:
                     if (u - x) ** 2 + (v - y) ** 2 <= least:
                         return True
         return False
-
-
-Thinned = DownsampledPoints  # name in the first edition

@@ -1,8 +1,5 @@
-"""Line fitting: weighted total least squares of scan points, each weighed by its own noise.
-
-Minimised are the residuals, Σ e² / σ², e = p_x cos α + p_y sin α − ρ, over distance ρ and direction
-α of the normal. Unlike y = m x + c it has no walls it cannot fit.
-"""
+"""Line fitting by weighted total least squares: Σ e² / σ² with e = p_x cos α + p_y sin α − ρ
+(Hessian normal form)."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -13,20 +10,23 @@ import numpy as np
 from slamlab.geometry import wrap
 from slamlab.models.parameters import SensorModel
 
-ITERATIONS = 3  # of Gauss-Newton
-MAX_EMPTY = 3  # empty beams in a row that happen by chance; more are a view into nothing
+ITERATIONS = 3  # of the maximum-likelihood fit
+MAX_RANGE = 1e7  # a larger number means no return [m]
+MIN_STEP = 1e-6  # least mean angle between beams: below it all have one bearing [rad]
+MIN_VARIANCE_SHARE = 1e-12  # least variance of points along their line, as a share of t² [1]
+MAX_EMPTY = 3  # beams without a return in a row by chance; more mean free space
 
 
 @dataclass(frozen=True)
 class Line:
-    """A line landmark (wall) as a scan shows it, in the robot's frame, with its covariance.
+    """Observation of a line landmark (wall) in a scan, in the robot's frame.
 
     Parameters
     ----------
-    z : (2,) distance ρ' > 0 [m] and direction α' of the normal [rad], as ``models.h_line`` gives
+    z : (2,) distance ρ' > 0 [m] and direction α' of the normal [rad]
     R : (2, 2) covariance of z
-    ends : (2, 2) where the wall was seen to begin and to end, counter-clockwise [m]
-    beams : (n,) int, which beams of the scan lie on it
+    ends : (2, 2) first and last observed point, counter-clockwise [m]
+    beams : (n,) int, beams of the scan that hit it
     """
 
     z: np.ndarray
@@ -36,23 +36,14 @@ class Line:
 
     @property
     def length(self):
-        """Length of the wall segment that was seen [m]."""
+        """Length of the observed segment [m]."""
         return float(np.hypot(*(self.ends[1] - self.ends[0])))
 
 
 @dataclass(frozen=True)
-class Cloud:
-    """A point cloud: the points of a scan with their measurement noise.
-
-    Parameters
-    ----------
-    points : (n, 2) in the robot's frame, in the order of the beams [m]
-    angles, ranges : (n,) [rad], [m]
-    beams : (n,) int, each point's beam in the scan
-    total : int, beams of a whole turn
-    sensor : SensorModel
-    floor : float, least standard deviation of a point: walls are not that flat [m]
-    """
+class ScanPoints:
+    """Points (n, 2) [m] of a scan with beams and noise. A full circle has ``total`` beams.
+    ``floor`` is the minimum standard deviation [m], because walls are not perfectly flat."""
 
     points: np.ndarray
     angles: np.ndarray
@@ -67,7 +58,7 @@ class Cloud:
 
     @cached_property
     def after_gap(self):
-        """(n,) bool, whether more than a few empty beams lie between a point and the one before."""
+        """Whether more than MAX_EMPTY beams without a return precede each point, (n,) bool."""
         return np.diff(self.beams, prepend=self.beams[-1:]) % self.total > MAX_EMPTY + 1
 
     @cached_property
@@ -75,42 +66,38 @@ class Cloud:
         return 1.2 * self.ranges
 
     def variance(self, rows, rho, alpha):
-        """(k,) measurement noise: variance of some points across a line they may lie on [m²].
-
-        Noise grows with the range, so it is taken at the range where the beam meets the line: at
-        the measured one, what happens to be too short would count for more.
-        """
+        """Return the variance (k,) of points across a line [m²], at the range expected from the
+        line; at the measured range, points that are too near would have larger weights."""
         c = np.cos(self.angles[rows] - alpha)
-        # a beam along the line, or from behind it, meets it nowhere near
+        # a beam parallel to the line, or away from it, has no expected range: limited
         r = np.minimum(max(rho, 0.0) / np.maximum(c, 1e-3), self._farthest[rows])
         along, across = self.sensor.sigma(r), self.sensor.bearing_sigma * r
         return (along * c) ** 2 + across**2 * (1 - c * c) + self.floor**2
 
 
-def cloud(scan, sensor, floor=0.002):
-    """The point cloud of a scan: its valid points with their measurement noise.
+def usable_beams(scan):
+    """Return the indices of the valid beams of a scan; none if all beams have the same bearing."""
+    beams = np.flatnonzero(scan.valid & np.isfinite(scan.angles) & (scan.ranges < MAX_RANGE))
+    return beams if mean_step(scan) > MIN_STEP else beams[:0]
 
-    Parameters
-    ----------
-    scan : Scan
-    sensor : SensorModel
-    floor : float, least standard deviation of a point [m]
 
-    Returns
-    -------
-    Cloud
-    """
-    beams = np.flatnonzero(scan.valid)
-    angles, ranges = scan.angles[beams], scan.ranges[beams]
-    steps = np.abs(np.diff(scan.angles))
-    total = max(len(scan.angles), round(2 * np.pi / steps.mean()) if len(steps) else 1)
-    return Cloud(scan.points(), angles, ranges, beams, total, sensor, floor)
+def mean_step(scan):
+    """Return the mean absolute angle between beams of a scan [rad]; 0 for fewer than two beams."""
+    angles = scan.angles[np.isfinite(scan.angles)]
+    return float(np.abs(np.diff(angles)).mean()) if len(angles) > 1 else 0.0
+
+
+def scan_points(scan, sensor, floor=0.002):
+    """Return the ScanPoints of the valid beams of a scan."""
+    beams = usable_beams(scan)
+    angles, r = scan.angles[beams], scan.ranges[beams]
+    points = np.column_stack([r * np.cos(angles), r * np.sin(angles)])
+    total = max(len(scan.angles), round(2 * np.pi / max(mean_step(scan), MIN_STEP)))
+    return ScanPoints(points, angles, r, beams, total, sensor, floor)
 
 
 def total_least_squares(points):
-    """Total least squares (orthogonal regression): the line of points of equal noise.
-
-    Equations (08.5) and (08.6).
+    """Fit a line by total least squares (orthogonal regression). Equations (08.5) and (08.6).
 
     Parameters
     ----------
@@ -127,22 +114,20 @@ def total_least_squares(points):
 
 
 def fit(cloud, rows, start=None, iterations=ITERATIONS):
-    """Fit a line to points of a scan, each weighed by its own noise: maximum likelihood.
-
-    By Gauss-Newton. A point errs along its beam, so it slides along a slanting wall as it
-    leaves it; where on the wall it belongs its beam tells, not its range. Its R is equation (08.8).
+    """Fit a line to points of a scan by maximum likelihood, with R of Equation (08.8).
 
     Parameters
     ----------
-    cloud : Cloud
+    cloud : ScanPoints
     rows : (n,) int, at least two
-    start : (2,) ρ, α to begin with, by default that of total least squares
+    start : (2,) initial ρ, α, by default of total least squares
     iterations : int, at least one
 
     Returns
     -------
     z : (2,) ρ ≥ 0 [m], α [rad]
-    R : (2, 2) its covariance, the inverse of Σ J Jᵀ / σ² with J = [1, −t]
+    R : (2, 2) its covariance, the inverse of Σ J Jᵀ / σ² with J = [1, −t]; infinite if all points
+        coincide
     """
     points, angles = cloud.points[rows], cloud.angles[rows]
     rho, alpha = total_least_squares(points) if start is None else start
@@ -152,9 +137,11 @@ def fit(cloud, rows, start=None, iterations=ITERATIONS):
         residual, t = points @ [c, s] - rho, points @ [-s, c]
         total, first, second = weights.sum(), weights @ t, weights @ (t * t)
         expected = np.minimum(np.maximum(rho * np.tan(angles - alpha), t.min()), t.max())
-        # the normal equations, two by two
+        # the 2 × 2 linear system of the step
         b_rho, b_alpha = weights @ residual, weights @ (expected * residual)
         det = total * second - first * first
+        if not det > MIN_VARIANCE_SHARE * total * second:
+            return np.array(_outward(rho, alpha)), np.diag([np.inf, np.inf])
         rho += (second * b_rho - first * b_alpha) / det
         alpha += (first * b_rho - total * b_alpha) / det
     R = np.array([[second, first], [first, total]]) / det
@@ -162,7 +149,7 @@ def fit(cloud, rows, start=None, iterations=ITERATIONS):
 
 
 def _outward(rho, alpha):
-    """The same line with its normal pointing away from the robot."""
+    """Return the same line with ρ ≥ 0."""
     if rho < 0:
         rho, alpha = -rho, alpha + np.pi
     return float(rho), float(wrap(alpha))

@@ -1,38 +1,32 @@
-"""RANSAC line extraction: walls in a scan from line hypotheses, their inliers and outliers.
-
-Smolec §2.4: pick a random reading, fit a line through it and its neighbours, count the inliers.
-``THESIS`` has his numbers; they fail with range, since noise grows and his band does not. By
-default the inlier band is the noise's own, and a wall grows from its first points along the
-scan (region growing). This stands where others split and merge (split-and-merge).
-"""
+"""RANSAC line extraction (Smolec §2.4; an alternative to split and merge), with region growing and
+an inlier threshold derived from the noise."""
 
 from dataclasses import dataclass
 from math import cos, erf, exp, pi, sin, sqrt
 
 import numpy as np
 
-from slamlab.landmarks.line_fitting import Line, cloud, fit, total_least_squares
+from slamlab.landmarks.line_fitting import Line, fit, scan_points, total_least_squares
 
-MAX_MISSES = 40  # hypotheses in a row that fail, then the search ends
-MAX_GROWTHS = 8  # rounds of region growing at most; three or four reach the ends
+MAX_MISSES = 40  # number of failed trials (hypotheses) in a row that ends the search
+MAX_GROWTHS = 8  # iterations of region growing; three or four usually suffice
 
 
 @dataclass(frozen=True)
 class Ransac:
-    """Parameters of RANSAC line extraction: how hypotheses are made and when they are accepted.
+    """Parameters of RANSAC line extraction.
 
     Parameters
     ----------
-    window : int, neighbouring readings a hypothesis is made of
-    min_inliers : int, inliers: so many of these have to lie in the band
-    band : float, inlier threshold, half the band's width [m], or None: ``sigmas`` standard
-        deviations of each point
+    window : int, neighbouring points of a hypothesis
+    min_inliers : int, least number of inliers among them
+    band : float, inlier threshold [m]; None: ``sigmas`` standard deviations of each point
     sigmas : float
     max_chi2 : float, largest mean square residual in units of its variance, when band is None
-    grow : bool, whether the wall goes on beyond the window
-    gap : float, widest hole of a wall that grows, if one beam goes through it; two end it [m]
-    max_hidden : float, widest piece of a wall that things before it may hide, in gaps [1]
-    min_length : float, least length of a wall [m]
+    grow : bool, whether region growing extends the wall beyond the window
+    gap : float, widest gap of a wall that one beam passes through; two beams end the wall [m]
+    max_hidden : float, widest occluded part of a wall, in gaps [1]
+    min_length : float, of a wall [m]
     """
 
     window: int = 9
@@ -48,14 +42,14 @@ class Ransac:
     def __post_init__(self):
         if not 3 <= self.min_inliers <= self.window:
             raise ValueError(
-                f"min_inliers is from 3 to the window of {self.window}, not {self.min_inliers}"
+                f"min_inliers must be from 3 to the window of {self.window}, not {self.min_inliers}"
             )
         if (self.band is not None and self.band <= 0) or self.sigmas <= 0 or self.max_chi2 <= 0:
-            raise ValueError("band, sigmas and max_chi2 are above zero")
+            raise ValueError("band, sigmas and max_chi2 must be above zero")
 
 
 THESIS = Ransac(window=25, min_inliers=21, band=0.015, grow=False, min_length=0.0)
-"""Smolec's parameters: 25 readings, 15 mm, at least 25 − 4."""
+"""Smolec's parameters: windows of 25 points, 15 mm, at least 25 − 4 inliers."""
 
 
 def lines(scan, sensor, rng, ransac=None):
@@ -64,7 +58,7 @@ def lines(scan, sensor, rng, ransac=None):
     Parameters
     ----------
     scan : Scan
-    sensor : SensorModel, how noisy it is
+    sensor : SensorModel
     rng : numpy.random.Generator
     ransac : Ransac, its defaults when None
 
@@ -73,7 +67,7 @@ def lines(scan, sensor, rng, ransac=None):
     list of Line, the best supported first
     """
     ransac = ransac or Ransac()
-    points = cloud(scan, sensor)
+    points = scan_points(scan, sensor)
     free = np.ones(len(points), dtype=bool)
     found, misses = [], 0
     while misses < MAX_MISSES and free.sum() >= ransac.window:
@@ -89,14 +83,14 @@ def lines(scan, sensor, rng, ransac=None):
         walls = _refit_without_shared(points, found, ransac)
     else:
         walls = [_fitted_wall(points, line, rows, rows, ransac) for line, rows in found]
-    return [wall for wall in walls if wall.length >= ransac.min_length]
+    return [w for w in walls if w.length >= ransac.min_length and np.isfinite(w.R[0, 0])]
 
 
 def _sample_and_grow(points, free, rng, ransac):
-    """A hypothesis, grown: line (ρ, α) round a random point and its inliers' rows, or two None."""
+    """RANSAC hypothesis: a line (ρ, α) and its inliers (rows), or None and None."""
     rows = np.flatnonzero(free)
     seed = rng.integers(len(rows))
-    # readings are neighbours round the whole turn
+    # the first and the last beam of a full circle are neighbours
     rows = rows[(seed + np.arange(ransac.window) - ransac.window // 2) % len(rows)]
     seed, line = rows[ransac.window // 2], total_least_squares(points.points[rows])
     residuals, band = _residuals(points, rows, line, ransac)
@@ -118,7 +112,7 @@ def _sample_and_grow(points, free, rng, ransac):
 
 
 def _residuals(points, rows, line, ransac):
-    """Residuals of points to a line (ρ, α), outward, and the inlier band: (k,), (k,) or () [m]."""
+    """Return outward residuals to a line (ρ, α) and the inlier band: (k,), (k,) or () [m]."""
     rho, alpha = line
     residuals = points.points[rows] @ [cos(alpha), sin(alpha)] - rho
     if ransac.band is not None:
@@ -127,32 +121,29 @@ def _residuals(points, rows, line, ransac):
 
 
 def _connected_inliers(points, free, line, seed, ransac):
-    """The free inliers connected to a seed, both ways along a line, in the order of the beams.
-
-    The wall ends where beams go through it. Where something stands before it, or nothing came
-    back, it may go on.
-    """
+    """Return the inliers among ``free`` points that are connected to a seed, in order of the beams:
+    a wall ends where beams pass through its line, but not where it is occluded."""
     beams = points.beams
     residuals, band = _residuals(points, slice(None), line, ransac)
     inliers = ((np.abs(residuals) <= band) & free).nonzero()[0]
     if not len(inliers):
         return inliers
-    # begin opposite to the seed: no wall reaches round the robot to there
+    # begin opposite to the seed: no wall extends that far around the robot
     opposite = beams.searchsorted((beams[seed] + points.total // 2) % points.total)
     turned = inliers.searchsorted(opposite)
     inliers = np.concatenate([inliers[turned:], inliers[:turned]])
-    places = inliers - opposite  # in that order
-    places[places < 0] += len(points)
+    ranks = inliers - opposite  # in that order
+    ranks[ranks < 0] += len(points)
     along = points.points[inliers] @ [-sin(line[1]), cos(line[1])]
     through = ((residuals > band) | points.after_gap).cumsum()
     passed = through[inliers]
-    views = passed[1:] - passed[:-1]  # one may be noise
+    views = passed[1:] - passed[:-1]  # beams through the wall; one may be noise
     if 0 < turned < len(inliers):
         views[len(inliers) - turned - 1] += through[-1]  # from the last beam to the first
-    apart, neighbours = np.abs(along[1:] - along[:-1]), places[1:] - places[:-1] == 1
+    apart, neighbours = np.abs(along[1:] - along[:-1]), ranks[1:] - ranks[:-1] == 1
     holes = (views > 1) | (views == 1) & (apart > ransac.gap)
     ends = (holes | ~neighbours & (apart > ransac.max_hidden * ransac.gap)).nonzero()[0]
-    nearest = np.abs(places - (seed - opposite) % len(points)).argmin()
+    nearest = np.abs(ranks - (seed - opposite) % len(points)).argmin()
     k = ends.searchsorted(nearest)
     first = ends[k - 1] + 1 if k else 0
     last = ends[k] + 1 if k < len(ends) else len(inliers)
@@ -160,12 +151,7 @@ def _connected_inliers(points, free, line, seed, ransac):
 
 
 def _refit_without_shared(points, found, ransac):
-    """Fit each wall again without the inliers that may be another's.
-
-    Near a corner two walls want the same points. Who took them first would be turned by them, in
-    every scan alike; that error would never average out. So they tell where a wall ends, but not
-    how it stands. What wants hardly a point of its own is a wall that was found before.
-    """
+    """Fit each wall without inliers that it shares with other walls: they would bias the fit."""
     all_points, kept, claims = np.ones(len(points), dtype=bool), [], []
     for line, rows in found:
         inliers = np.zeros(len(points), dtype=bool)
@@ -182,23 +168,19 @@ def _refit_without_shared(points, found, ransac):
 
 
 def _fitted_wall(points, start, rows, extent, ransac):
-    """The Line fitted to the rows that are its own, as far as the points of its extent go."""
+    """Fit a Line to the points in ``rows``; its ends are those of the points in ``extent``."""
     z, R = fit(points, rows, start, iterations=2)
     rho, alpha = z
-    normal, way = (np.array([np.cos(a), np.sin(a)]) for a in (alpha, alpha + np.pi / 2))
-    along = points.points[extent] @ way
-    ends = rho * normal + np.outer([along.min(), along.max()], way)
+    normal, direction = (np.array([np.cos(a), np.sin(a)]) for a in (alpha, alpha + np.pi / 2))
+    along = points.points[extent] @ direction
+    ends = rho * normal + np.outer([along.min(), along.max()], direction)
     if ransac.band is None:
         R = R * _selection_inflation(ransac.sigmas)
     return Line(z, R, ends, points.beams[np.sort(rows)])
 
 
 def _selection_inflation(c):
-    """Covariance inflation by selecting inliers: P(χ²₁ < c²) / P(χ²₃ < c²).
-
-    The band of c σ goes with the line, so the points it gains on one side and loses on the other
-    pull the line further to where it errs. As for every Σ ψ(e/σ) = 0 the variance is that of ψ over
-    the square of its mean slope; for ψ(e) = e in the band both are P(|e| < c) − 2 c φ(c).
-    """
+    """Return the covariance inflation that selecting inliers causes, P(χ²₁ < c²) / P(χ²₃ < c²): the
+    variance of the M-estimator ψ(e) = e inside the threshold over its squared mean derivative."""
     inside = erf(c / sqrt(2))
     return inside / (inside - c * sqrt(2 / pi) * exp(-c * c / 2))

@@ -1,71 +1,41 @@
-"""Sonar lines: walls in an ultrasonic scan, by the sonar cone model of their echoes.
-
-A beam of half opening δ hears the nearest surface in its cone. Of a wall at distance ρ, its normal
-in direction α, that is the foot of the perpendicular as long as the cone holds it: the range stays
-ρ, a region of constant depth (Leonard, Durrant-Whyte 1992). Beyond, it is the cone's near edge:
-
-    r(β) = ρ / cos u,  |u| = max(0, |β − α| − δ)
-
-An edge, a pillar or a table leg echoes as a flat piece, too; behind it the range leaves faster
-than a wall's. So a wall is only what follows the slope far enough.
-"""
+"""Line extraction from an ultrasonic scan by the sonar cone model, r(β) = ρ / cos u, |u| = max(0,
+|β − α| − δ) (Leonard, Durrant-Whyte 1992). Edges and pillars also form a region of constant depth,
+but only a wall follows the model beyond that region."""
 
 import numpy as np
 
 from slamlab.geometry import wrap
-from slamlab.landmarks.line_fitting import Line
+from slamlab.landmarks.line_fitting import Line, usable_beams
 
-WINDOW = np.radians(20)  # beyond the flat, in which a fit starts [rad]
-REACH = np.radians(40)  # beyond the flat, to which a wall is followed [rad]
-STARTS = 21  # directions α that a fit is started from
+WINDOW = np.radians(20)  # beyond the region of constant depth, for the first iterations [rad]
+REACH = np.radians(40)  # beyond the region of constant depth, for the later iterations [rad]
+STARTS = 21  # initial directions α of the fit
 ITERATIONS = 6  # of Gauss-Newton, two of them in the window
-SIGMAS = 2.8  # inlier threshold, standard deviations of a reading [1]
+SIGMAS = 2.8  # inlier threshold, in standard deviations of a range [1]
 MAX_CHI2 = 1.8  # largest mean square residual of the inliers, in units of their variance
-MIN_INLIERS, MIN_SHARE = 5, 0.6  # readings that fit, and the share of the window that they are
-MIN_SLOPE = np.radians(25)  # above it hardly an edge or a pillar passes for a wall [rad]
-MAX_SIGMA = np.radians(5)  # standard deviation of α above which a wall says nothing [rad]
-INFLATION = 1.15  # of R: the line chooses its inliers, some of them of what stands beside it [1]
-MAX_SHARED = 0.3  # of a wall's readings, that a better supported one holds already [1]
+MIN_INLIERS, MIN_SHARE = 5, 0.6  # least number of inliers, and share of inliers in the window
+MIN_SLANT = np.radians(25)  # least range of slant angles: edges and pillars rarely reach it [rad]
+MAX_SIGMA = np.radians(5)  # largest standard deviation of α of a usable line [rad]
+INFLATION = 1.15  # of R for the selection of inliers, some of which are of other objects [1]
+MAX_SHARED = 0.3  # largest share of a wall's beams that a better supported wall also uses [1]
 
 
 def slant(beta, alpha, half_cone):
-    """Angle between a wall's normal and where its echo comes from: u = β − α less the half cone.
-
-    Equation (09.7).
-
-    Parameters
-    ----------
-    beta : (...,) directions of beams [rad]
-    alpha : (...,) direction of the wall's normal [rad]
-    half_cone : float, half opening angle of a beam; 0 of a lidar [rad]
-
-    Returns
-    -------
-    (...,) u, 0 as long as the cone holds the foot of the perpendicular [rad]
-    """
+    """Compute the slant angle u between a wall's normal α and the echo of a beam β: β − α less the
+    half cone [rad]. Equation (09.7)."""
     off = wrap(np.asarray(beta) - alpha)
     return np.sign(off) * np.maximum(0.0, np.abs(off) - half_cone)
 
 
-def sonar_lines(scan, sensor, min_slope=MIN_SLOPE):
-    """Extract the lines of the walls in a scan of wide beams.
-
-    Parameters
-    ----------
-    scan : Scan
-    sensor : SensorModel, with its half cone
-    min_slope : float, of slope that a wall has to be followed over, both sides together; less of it
-        lets edges and pillars through [rad]
-
-    Returns
-    -------
-    list of Line, the best supported first; ``beams`` are those that follow its echo
-    """
-    beams = np.flatnonzero(scan.valid)
+def sonar_lines(scan, sensor, min_slant=MIN_SLANT):
+    """Return Lines, best supported first; inliers must cover slants u of ``min_slant`` [rad]."""
+    beams = usable_beams(scan)
+    if not len(beams):
+        return []
     angles, ranges = scan.angles[beams], scan.ranges[beams]
     found = []
     for k in _local_minima(angles, ranges, sensor.half_cone):
-        line = _wall(angles, ranges, beams, angles[k], sensor, min_slope)
+        line = _wall(angles, ranges, beams, angles[k], sensor, min_slant)
         if line is not None:
             found.append(line)
     found.sort(key=lambda line: -len(line.beams))
@@ -78,21 +48,8 @@ def sonar_lines(scan, sensor, min_slope=MIN_SLOPE):
 
 
 def fit_cone(angles, ranges, sensor, alpha, rho):
-    """One Gauss-Newton step of (ρ, α) by least squares: normal equations of the cone model.
-
-    J = ∂r/∂(ρ, α) = [1, −ρ tan u] / cos u, weights 1/σ² at the range that the model expects
-
-    Parameters
-    ----------
-    angles, ranges : (n,) of the readings that are the wall's [rad], [m]
-    sensor : SensorModel
-    alpha, rho : floats, the line so far [rad], [m]
-
-    Returns
-    -------
-    z : (2,) ρ [m], α [rad]
-    R : (2, 2) its covariance (Jᵀ W J)⁻¹; None where the readings do not tell a line
-    """
+    """Fit (ρ, α) by a Gauss-Newton step: return z (2,) and R = (Jᵀ W J)⁻¹, or None if Jᵀ W J is
+    singular, with the Jacobian J = ∂r/∂(ρ, α) = [1, −ρ tan u] / cos u."""
     u = slant(angles, alpha, sensor.half_cone)
     expected = rho / np.cos(u)
     J = np.column_stack([1 / np.cos(u), -expected * np.tan(u)])
@@ -106,14 +63,14 @@ def fit_cone(angles, ranges, sensor, alpha, rho):
 
 
 def _local_minima(angles, ranges, half_cone):
-    """Rows of the readings that are the nearest within half a cone, either way."""
+    """Return the rows of ranges that are the shortest within half a cone."""
     apart = np.abs(wrap(angles[:, None] - angles))
     nearest = np.where(apart <= half_cone, ranges, np.inf).min(axis=1)
     return np.flatnonzero(ranges <= nearest)
 
 
-def _wall(angles, ranges, beams, bearing, sensor, min_slope):
-    """The Line round one local minimum, or None where what is there is no wall."""
+def _wall(angles, ranges, beams, bearing, sensor, min_slant):
+    """Return the Line around a local minimum of the ranges, or None."""
     near = np.abs(wrap(angles - bearing)) <= sensor.half_cone + WINDOW
     z = _start(angles[near], ranges[near], bearing, sensor)
     for k in range(ITERATIONS):
@@ -133,13 +90,13 @@ def _wall(angles, ranges, beams, bearing, sensor, min_slope):
     u = slant(angles[rows], z[1], sensor.half_cone)
     expected = z[0] / np.cos(u)
     chi2 = np.sum(((ranges[rows] - expected) / sensor.sigma(expected)) ** 2)
-    if np.ptp(u) < min_slope or chi2 > MAX_CHI2 * (len(rows) - 2):
+    if np.ptp(u) < min_slant or chi2 > MAX_CHI2 * (len(rows) - 2):
         return None
     return _as_line(z, R, u, beams[rows])
 
 
 def _start(angles, ranges, bearing, sensor):
-    """The line (ρ, α) that a robust fit starts from: ρ is linear once α is chosen from a grid."""
+    """Return the initial (ρ, α): α from a grid, ρ by linear least squares."""
     alphas = bearing + sensor.half_cone * np.linspace(-1, 1, STARTS)
     factor = 1 / np.cos(slant(angles, alphas[:, None], sensor.half_cone))
     rho = np.full((STARTS, 1), ranges.min())
@@ -155,10 +112,8 @@ def _start(angles, ranges, bearing, sensor):
 
 
 def _followed(angles, ranges, z, sensor, reach):
-    """Readings up to a slant, those that follow the wall without a break, whether all its flat do.
-
-    Lost echoes are no readings, so they break nothing.
-    """
+    """Return rows up to a slant angle, which of them are contiguous inliers, and whether all rows
+    of the region of constant depth are inliers."""
     u = slant(angles, z[1], sensor.half_cone)
     rows = np.flatnonzero(np.abs(u) <= reach)
     rows = rows[np.argsort(wrap(angles[rows] - z[1]))]
@@ -167,12 +122,11 @@ def _followed(angles, ranges, z, sensor, reach):
     whole = bool(inliers[u == 0].all())
     first = np.flatnonzero((u < 0) & ~inliers).max(initial=-1)
     last = np.flatnonzero((u > 0) & ~inliers).min(initial=len(rows))
-    place = np.arange(len(rows))
-    return rows, inliers & (place > first) & (place < last), whole
+    rank = np.arange(len(rows))
+    return rows, inliers & (rank > first) & (rank < last), whole
 
 
 def _as_line(z, R, u, beams):
-    """The Line as far as its echoes came from it."""
-    normal, way = (np.array([np.cos(a), np.sin(a)]) for a in (z[1], z[1] + np.pi / 2))
-    ends = z[0] * (normal + np.outer(np.tan([u.min(), u.max()]), way))
+    normal, direction = (np.array([np.cos(a), np.sin(a)]) for a in (z[1], z[1] + np.pi / 2))
+    ends = z[0] * (normal + np.outer(np.tan([u.min(), u.max()]), direction))
     return Line(np.array([z[0], wrap(z[1])]), INFLATION * R, ends, np.sort(beams))

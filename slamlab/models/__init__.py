@@ -1,13 +1,12 @@
-"""Motion and observation models, their Jacobians, their noise covariances, and their derivation.
+"""Motion and measurement (observation) models, their Jacobians and noise covariances.
 
 Read in this order:
 
-- ``motion``: f, the motion models; ``observation``: h, the observation models, and g, their inverse
-- ``jacobians``: A and W of f, H of h, J_xr and J_z of g (a new landmark)
-- ``noise``: C of the control, Q of the process noise, R of the measurement noise
+- ``motion``: motion models f; ``observation``: measurement models h, inverse measurement models g
+- ``jacobians``: A and W of f, H of h, J_xr and J_z of g
+- ``noise``: control noise C, process noise Q, measurement noise R
 - ``parameters``: noise and limits of a robot and of a range sensor
-- ``symbolic``: all of it derived by sympy; tests hold sympy = code = finite differences
-- ``differences``: slopes of any model, to hold its Jacobian against
+- ``symbolic``: derivations by SymPy; ``finite_differences``: numerical Jacobians
 """
 
 from slamlab._lazy import exports

@@ -1,22 +1,19 @@
-"""Jacobians (linearisation): A and W of motion, H of observation, J_xr and J_z of a new landmark.
+"""Jacobians (linearisation): A and W of the motion model, H of the measurement model, J_xr and J_z
+of its inverse (landmark initialisation).
 
-Those that end in ``_line`` are of walls' lines, the others of point landmarks.
-
-Each equals its derivation in :mod:`slamlab.models.symbolic` and finite differences of the model.
+Names that end in ``_line`` are for line landmarks. Derived in :mod:`slamlab.models.symbolic`.
 """
 
 import numpy as np
 
 
 def A_odometry(x, u):
-    """Jacobian ∂f/∂x of the odometry model: [[1, 0, −Δy], [0, 1, Δx], [0, 0, 1]] (Smolec §4.1).
-
-    Equation (04.5).
+    """Jacobian of the motion model: ∂f/∂x = [[1, 0, −Δy], [0, 1, Δx], [0, 0, 1]]. Equation (04.5).
+    Smolec §4.1.
 
     Parameters
     ----------
-    x : (3,) pose [m, m, rad]
-    u : (2,) distance d [m], turn Δθ [rad]
+    x, u : (3,) [m, m, rad], (2,) [m, rad]
 
     Returns
     -------
@@ -27,12 +24,11 @@ def A_odometry(x, u):
 
 
 def W_odometry(x, u):
-    """Jacobian ∂f/∂u of the odometry motion model, by the odometry increment. Equation (04.6).
+    """Jacobian of the motion model: ∂f/∂u = [[cos θ, 0], [sin θ, 0], [0, 1]]. Equation (04.6).
 
     Parameters
     ----------
-    x : (3,) pose [m, m, rad]
-    u : (2,) distance d [m], turn Δθ [rad]
+    x, u : (3,) [m, m, rad], (2,) [m, rad]
 
     Returns
     -------
@@ -42,13 +38,12 @@ def W_odometry(x, u):
 
 
 def A_steered(x, u, B, T):
-    """Jacobian ∂f/∂x of the steered motion model (MAK thesis, chapter 3).
+    """Jacobian of the motion model ``f_steered``: ∂f/∂x (MAK thesis, chapter 3).
 
     Parameters
     ----------
-    x : (3,) pose [m, m, rad]
-    u : (2,) speed V [m/s], steering angle γ [rad]
-    B, T : float, wheel base [m], period [s]
+    x, u : (3,) [m, m, rad], (2,) [m/s, rad]
+    B, T : float [m], [s]
 
     Returns
     -------
@@ -62,13 +57,12 @@ def A_steered(x, u, B, T):
 
 
 def W_steered(x, u, B, T):
-    """Jacobian ∂f/∂u of the steered motion model: control noise adds to V and γ (MAK, chapter 3).
+    """Jacobian of the motion model ``f_steered``: ∂f/∂u (MAK thesis, chapter 3).
 
     Parameters
     ----------
-    x : (3,) pose [m, m, rad]
-    u : (2,) speed V [m/s], steering angle γ [rad]
-    B, T : float, wheel base [m], period [s]
+    x, u : (3,) [m, m, rad], (2,) [m/s, rad]
+    B, T : float [m], [s]
 
     Returns
     -------
@@ -80,14 +74,13 @@ def W_steered(x, u, B, T):
 
 
 def H_robot(x, p):
-    """Observation Jacobian ∂h/∂x, the robot's part of H (Smolec (2), its sign mended).
+    """Jacobian of the measurement model: ∂h/∂x (Smolec (2), sign corrected). Equation (04.9).
 
-    [[(x−p_x)/r, (y−p_y)/r, 0], [(p_y−y)/r², (x−p_x)/r², −1]]. Equation (04.9).
+    [[(x−p_x)/r, (y−p_y)/r, 0], [(p_y−y)/r², (x−p_x)/r², −1]]
 
     Parameters
     ----------
-    x : (..., 3) pose [m, m, rad], broadcast against the landmarks
-    p : (..., 2) landmarks [m]
+    x, p : (..., 3) [m, m, rad], (..., 2) [m]
 
     Returns
     -------
@@ -104,14 +97,11 @@ def H_robot(x, p):
 
 
 def H_landmark(x, p):
-    """Observation Jacobian ∂h/∂p, the landmark's part of H (Smolec (3)).
-
-    Minus the robot's x and y columns. Equation (04.10).
+    """Jacobian of the measurement model: ∂h/∂p (Smolec (3)). Equation (04.10).
 
     Parameters
     ----------
-    x : (..., 3) pose [m, m, rad], broadcast against the landmarks
-    p : (..., 2) landmarks [m]
+    x, p : (..., 3) [m, m, rad], (..., 2) [m]
 
     Returns
     -------
@@ -121,14 +111,12 @@ def H_landmark(x, p):
 
 
 def J_xr(x, z):
-    """Jacobian ∂g/∂x of a new landmark by the pose, to augment the state (Smolec (10), mended).
-
-    [[1, 0, −r sin(θ+β)], [0, 1, r cos(θ+β)]]. Equation (04.14).
+    """Jacobian of the inverse measurement model: ∂g/∂x = [[1, 0, −r sin(θ+β)], [0, 1, r cos(θ+β)]]
+    (Smolec (10), corrected). Equation (04.14).
 
     Parameters
     ----------
-    x : (3,) pose [m, m, rad]
-    z : (..., 2) range [m], bearing [rad]
+    x, z : (3,) [m, m, rad], (..., 2) [m, rad]
 
     Returns
     -------
@@ -143,14 +131,13 @@ def J_xr(x, z):
 
 
 def J_z(x, z):
-    """Jacobian ∂g/∂z of a new landmark by measurement, to augment the state (Smolec (11), mended).
+    """Jacobian of the inverse measurement model: ∂g/∂z (Smolec (11), corrected). Equation (04.14).
 
-    [[cos(θ+β), −r sin(θ+β)], [sin(θ+β), r cos(θ+β)]]. Equation (04.14).
+    [[cos(θ+β), −r sin(θ+β)], [sin(θ+β), r cos(θ+β)]]
 
     Parameters
     ----------
-    x : (..., 3) pose [m, m, rad], broadcast against the sightings
-    z : (..., 2) range [m], bearing [rad]
+    x, z : (..., 3) [m, m, rad], (..., 2) [m, rad]
 
     Returns
     -------
@@ -163,12 +150,11 @@ def J_z(x, z):
 
 
 def H_robot_line(x, line):
-    """Line observation Jacobian ∂h_line/∂x: [[−cos α, −sin α, 0], [0, 0, −1]].
+    """Jacobian of the measurement model: ∂h_line/∂x = [[−cos α, −sin α, 0], [0, 0, −1]].
 
     Parameters
     ----------
-    x : (3,) pose [m, m, rad]
-    line : (..., 2) ρ [m], α [rad]
+    x, line : (3,) [m, m, rad], (..., 2) [m, rad]
 
     Returns
     -------
@@ -181,12 +167,11 @@ def H_robot_line(x, line):
 
 
 def H_line(x, line):
-    """Line observation Jacobian ∂h_line/∂line: [[1, x sin α − y cos α], [0, 1]].
+    """Jacobian of the measurement model: ∂h_line/∂line = [[1, x sin α − y cos α], [0, 1]].
 
     Parameters
     ----------
-    x : (3,) pose [m, m, rad]
-    line : (..., 2) ρ [m], α [rad]
+    x, line : (3,) [m, m, rad], (..., 2) [m, rad]
 
     Returns
     -------
@@ -200,12 +185,11 @@ def H_line(x, line):
 
 
 def J_xr_line(x, z):
-    """Jacobian ∂g_line/∂x, new line: [[cos α, sin α, −x sin α + y cos α], [0, 0, 1]], α = θ + α'.
+    """Jacobian of g_line: ∂g_line/∂x = [[cos α, sin α, −x sin α + y cos α], [0, 0, 1]], α = θ + α'.
 
     Parameters
     ----------
-    x : (3,) pose [m, m, rad]
-    z : (..., 2) ρ' [m], α' [rad]
+    x, z : (3,) [m, m, rad], (..., 2) [m, rad]
 
     Returns
     -------
@@ -220,12 +204,11 @@ def J_xr_line(x, z):
 
 
 def J_z_line(x, z):
-    """Jacobian ∂g_line/∂z, new line: [[1, −x sin α + y cos α], [0, 1]], α = θ + α'.
+    """Jacobian of g_line: ∂g_line/∂z = [[1, −x sin α + y cos α], [0, 1]], α = θ + α'.
 
     Parameters
     ----------
-    x : (3,) pose [m, m, rad]
-    z : (..., 2) ρ' [m], α' [rad]
+    x, z : (3,) [m, m, rad], (..., 2) [m, rad]
 
     Returns
     -------

@@ -1,8 +1,4 @@
-"""Motion models f: the pose after an odometry increment, or after speed and steering (bicycle).
-
-Their Jacobians are in :mod:`slamlab.models.jacobians`, their derivation in
-:mod:`slamlab.models.symbolic`.
-"""
+"""Motion models f: odometry increment; speed and steering (bicycle)."""
 
 import numpy as np
 
@@ -10,38 +6,37 @@ from slamlab.geometry import wrap
 
 
 def f_odometry(x, u):
-    """Odometry motion model: a distance along the old heading, then a turn (Smolec (4), mended).
+    """Odometry motion model: a distance, then a turn (Smolec (4), corrected). Equation (04.4).
 
-    x' = x + d cos θ,  y' = y + d sin θ,  θ' = θ + Δθ. Equation (04.4).
+    x' = x + d cos θ,  y' = y + d sin θ,  θ' = θ + Δθ
 
     Parameters
     ----------
     x : (3,) pose [m, m, rad]
-    u : (2,) distance d [m], turn Δθ [rad]
+    u : (2,) d [m], Δθ [rad]
 
     Returns
     -------
-    (3,) pose [m, m, rad]
+    (3,)
     """
     d, turn = u
     return np.array([x[0] + d * np.cos(x[2]), x[1] + d * np.sin(x[2]), wrap(x[2] + turn)])
 
 
 def f_steered(x, u, B, T):
-    """Steered (bicycle, Ackermann) motion model over one period (MAK thesis, chapter 3).
+    """Steered (bicycle, Ackermann) motion model (MAK thesis, chapter 3). Equation (04.18).
 
-    x' = x + T V cos(θ+γ),  y' = y + T V sin(θ+γ),  θ' = θ + (T V / B) sin γ. Equation (04.18).
+    x' = x + T V cos(θ+γ),  y' = y + T V sin(θ+γ),  θ' = θ + (T V / B) sin γ
 
     Parameters
     ----------
     x : (3,) pose [m, m, rad]
     u : (2,) speed V [m/s], steering angle γ [rad]
-    B : float, wheel base [m]
-    T : float, period [s]
+    B, T : float, wheel base [m], period [s]
 
     Returns
     -------
-    (3,) pose [m, m, rad]
+    (3,)
     """
     V, gamma = u
     return np.array(

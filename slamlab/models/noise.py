@@ -1,19 +1,16 @@
-"""Noise covariances: C, control noise; Q, process noise (motion noise); R, measurement noise."""
+"""Noise covariances: control C, process noise Q (covariance propagation), measurement noise R."""
 
 import numpy as np
 
 
 def C_odometry(u, distance_error, turn_error, turn_per_metre=0.0):
-    """Control noise covariance C of an odometry increment: distance and turn, growing with both.
-
-    C = diag((k_d d)², (k_θ Δθ)² + (k_s d)²)
+    """Control noise covariance of an odometry increment: C = diag((k_d d)², (k_θ Δθ)² + (k_s d)²).
 
     Parameters
     ----------
-    u : (2,) distance d [m], turn Δθ [rad]
-    distance_error : float k_d, share of the distance [1]
-    turn_error : float k_θ, share of the turn [1]
-    turn_per_metre : float k_s, turn picked up per metre driven [rad/m]
+    u : (2,) d [m], Δθ [rad]
+    distance_error, turn_error : float k_d, k_θ [1]
+    turn_per_metre : float k_s [rad/m]
 
     Returns
     -------
@@ -26,15 +23,15 @@ def C_odometry(u, distance_error, turn_error, turn_per_metre=0.0):
 
 
 def C_wheels(u, slip, base):
-    """Control noise covariance C of a differential drive whose wheels slip at random.
+    """Control noise covariance C of a differential drive with random wheel slip.
 
-    d = (l + r)/2 and Δθ = (r − l)/b, l and r having the variances s² |l| and s² |r|
+    Equation (02.16): d = (l + r)/2, Δθ = (r − l)/b; the variances of l, r are s² |l|, s² |r|
 
     Parameters
     ----------
-    u : (2,) distance d [m], turn Δθ [rad]
-    slip : float s, standard deviation of a wheel's way after 1 m [m/√m]
-    base : float b, distance of the wheels [m]
+    u : (2,) d [m], Δθ [rad]
+    slip : float s [m/√m]
+    base : float b, distance between the wheels [m]
 
     Returns
     -------
@@ -47,14 +44,12 @@ def C_wheels(u, slip, base):
 
 
 def Q(W, C):
-    """Process noise covariance of a motion with control noise C: Q = W C Wᵀ (Smolec (8), mended).
-
-    Equation (04.7).
+    """Process noise covariance of a motion: Q = W C Wᵀ (Smolec (8), corrected). Equation (04.7).
 
     Parameters
     ----------
-    W : (3, 2) ∂f/∂u, from :mod:`slamlab.models.jacobians`
-    C : (2, 2) covariance of the controls
+    W : (3, 2) ∂f/∂u
+    C : (2, 2) control noise covariance
 
     Returns
     -------
@@ -64,18 +59,17 @@ def Q(W, C):
 
 
 def R(r, range_error, bearing_sigma, range_sigma=0.0, range_curvature=0.0):
-    """Measurement noise covariance of a range and bearing, growing with range (Smolec (9), mended).
+    """Measurement noise covariance of range and bearing (Smolec (9), corrected). Equation (04.15).
 
-    R = diag((c_1 r)² + σ_0² + (c_2 r²)², σ_β²): variances, not standard deviations.
-    Equation (04.15).
+    R = diag((c_1 r)² + σ_0² + (c_2 r²)², σ_β²)
 
     Parameters
     ----------
-    r : float, range [m]
-    range_error : float c_1, standard deviation as a share of the range [1]
+    r : float [m]
+    range_error : float c_1 [1]
     bearing_sigma : float σ_β [rad]
-    range_sigma : float σ_0, standard deviation at range zero [m]
-    range_curvature : float c_2, standard deviation per range squared [1/m]
+    range_sigma : float σ_0 [m]
+    range_curvature : float c_2 [1/m]
 
     Returns
     -------

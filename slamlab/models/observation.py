@@ -1,8 +1,4 @@
-"""Observation models (measurement models) h and their inverses g: range and bearing, lines.
-
-Their Jacobians are in :mod:`slamlab.models.jacobians`, their derivation in
-:mod:`slamlab.models.symbolic`.
-"""
+"""Measurement models (observation models) h and their inverses g: range and bearing, lines."""
 
 import numpy as np
 
@@ -10,18 +6,18 @@ from slamlab.geometry import wrap
 
 
 def h(x, p):
-    """Range-bearing observation model: landmarks seen from a pose (Smolec (1) with atan2).
+    """Range-bearing measurement model (Smolec (1) with atan2). Equation (04.8).
 
-    r = |p − t|,  β = atan2(p_y − y, p_x − x) − θ. Equation (04.8).
+    r = |p − t|,  β = atan2(p_y − y, p_x − x) − θ
 
     Parameters
     ----------
-    x : (..., 3) pose [m, m, rad], broadcast against the landmarks
+    x : (..., 3) poses [m, m, rad]
     p : (..., 2) landmarks [m]
 
     Returns
     -------
-    (..., 2) range [m] and bearing [rad], wrapped
+    (..., 2) r [m], β [rad], wrapped
     """
     x = np.asarray(x, dtype=float)
     d = np.asarray(p, dtype=float) - x[..., :2]
@@ -32,14 +28,13 @@ def h(x, p):
 
 
 def g(x, z):
-    """Inverse observation model: the landmark that a pose sees at range and bearing.
-
-    p = t + r [cos(θ+β), sin(θ+β)]. Equation (04.13).
+    """Inverse measurement model (inverse observation model): p = t + r [cos(θ+β), sin(θ+β)].
+    Equation (04.13).
 
     Parameters
     ----------
-    x : (..., 3) pose [m, m, rad], broadcast against the sightings
-    z : (..., 2) range [m] and bearing [rad]
+    x : (..., 3) poses [m, m, rad]
+    z : (..., 2) r [m], β [rad]
 
     Returns
     -------
@@ -52,22 +47,19 @@ def g(x, z):
 
 
 def h_line(x, line):
-    """Line observation model: distance and direction of a wall's line seen from a pose.
-
-    ρ' = ρ − x cos α − y sin α,  α' = α − θ, for the line of all p with p_x cos α + p_y sin α = ρ.
+    """Measurement model of a line in Hessian normal form, p_x cos α + p_y sin α = ρ.
     Equation (08.10).
 
-    The normal keeps pointing the way it did when the line was placed, so ρ' is negative for whom
-    has gone through the wall; nothing jumps there.
+    ρ' = ρ − x cos α − y sin α,  α' = α − θ; behind the wall ρ' is negative.
 
     Parameters
     ----------
     x : (3,) pose [m, m, rad]
-    line : (..., 2) ρ [m] and α [rad]
+    line : (..., 2) ρ [m], α [rad]
 
     Returns
     -------
-    (..., 2) ρ' [m] and α' [rad], wrapped
+    (..., 2) ρ' [m], α' [rad], wrapped
     """
     line = np.asarray(line, dtype=float)
     rho, alpha = line[..., 0], line[..., 1]
@@ -76,18 +68,16 @@ def h_line(x, line):
 
 
 def g_line(x, z):
-    """Inverse line observation model: the line that a pose sees at a distance and direction.
-
-    α = θ + α',  ρ = ρ' + x cos α + y sin α. Equation (09.2).
+    """Inverse measurement model of a line: α = θ + α', ρ = ρ' + x cos α + y sin α. Equation (09.2).
 
     Parameters
     ----------
     x : (3,) pose [m, m, rad]
-    z : (..., 2) ρ' [m] and α' [rad]
+    z : (..., 2) ρ' [m], α' [rad]
 
     Returns
     -------
-    (..., 2) lines: ρ [m] and α [rad], wrapped
+    (..., 2) ρ [m], α [rad], wrapped
     """
     z = np.asarray(z, dtype=float)
     alpha = wrap(x[2] + z[..., 1])

@@ -1,4 +1,4 @@
-"""Parameters of a robot's odometry noise and of a range sensor: noise, range, field of view."""
+"""Noise parameters of a robot's odometry and of a range sensor (motion and sensor model)."""
 
 from dataclasses import dataclass
 
@@ -7,17 +7,15 @@ import numpy as np
 
 @dataclass(frozen=True)
 class RobotModel:
-    """Odometry noise parameters of a robot, slip among them, as an estimator knows them.
+    """Standard deviations of a robot's odometry noise, as an estimator assumes them.
 
     Parameters
     ----------
-    distance_error : float, standard deviation as a share of the distance [1]
-    turn_error : float, standard deviation as a share of the turn [1]
-    turn_per_metre : float, standard deviation of the turn picked up per metre [rad/m]
-    slip : float, of each of two wheels, standard deviation after 1 m, growing with the root of the
-        way [m/√m]
-    base : float, distance of these wheels [m]
-    radius : float, for drawing [m]
+    distance_error, turn_error : float, shares of distance and turn [1]
+    turn_per_metre : float [rad/m]
+    slip : float, of a wheel's path after 1 m, proportional to the root of the path [m/√m]
+    base : float, distance between the wheels [m]
+    radius : float, of the robot [m]
     """
 
     distance_error: float = 0.05
@@ -30,18 +28,17 @@ class RobotModel:
 
 @dataclass(frozen=True)
 class SensorModel:
-    """Range sensor parameters: range limits, field of view, measurement noise.
+    """Range sensor parameters: standard deviations of the noise.
 
     Parameters
     ----------
     range_min, range_max : float [m]
-    field_of_view : float, field of view [rad]
-    range_error : float, standard deviation as a share of the range [1]
-    range_sigma : float, standard deviation at range zero [m]
+    field_of_view : float [rad]
+    range_error : float, share of the range [1]
+    range_sigma : float, at range zero [m]
     bearing_sigma : float [rad]
-    range_curvature : float, standard deviation per range squared, of sensors that triangulate [1/m]
-    half_cone : float, half opening angle of a beam that hears the nearest surface in it, as a
-        sonar's does; 0 of a lidar, whose beam is a ray [rad]
+    range_curvature : float, per range squared [1/m]
+    half_cone : float, half the beam width of a sonar; 0: a ray [rad]
     """
 
     range_min: float = 0.0
@@ -54,19 +51,8 @@ class SensorModel:
     half_cone: float = 0.0
 
     def sigma(self, ranges):
-        """Standard deviation of the measurement noise of ranges.
-
-        σ² = (error r)² + σ₀² + (curvature r²)². Equation (02.11), and σ₀.
-
-        Parameters
-        ----------
-        ranges : (...,) [m]
-
-        Returns
-        -------
-        (...,) [m]
-        """
+        """Standard deviation: σ² = (error r)² + σ₀² + (curvature r²)². Equation (02.11) with σ₀."""
         variance = (self.range_error * ranges) ** 2 + self.range_sigma**2
-        if self.range_curvature:  # as few sensors have: asked for every line of every scan
+        if self.range_curvature:  # of few sensors; this is called for each line of each scan
             variance += (self.range_curvature * ranges**2) ** 2
         return np.sqrt(variance)

@@ -1,11 +1,15 @@
-"""Symbolic derivation by sympy of the models and Jacobians, under the names they have there.
+"""Symbolic derivation (SymPy) of the models and Jacobians, with the names of the code.
 
-Angles are not wrapped here: h's bearing equals the code's up to whole turns.
+Angles are not wrapped here: they equal the angles in the code up to a multiple of 2π.
 """
 
 import numpy as np
-import sympy as sp
-from sympy import ImmutableMatrix as Matrix
+
+from slamlab.extras import needs
+
+with needs("symbolic"):
+    import sympy as sp
+    from sympy import ImmutableMatrix as Matrix
 
 x, y, theta = sp.symbols("x y theta", real=True)
 d, dtheta, V, gamma = sp.symbols("d Δθ V gamma", real=True)
@@ -58,19 +62,7 @@ J_z_line = g_line.jacobian(z_line)
 
 
 def numeric(expression, *arguments):
-    """Lambdify: a numeric function out of a sympy matrix, called like its twin in the models.
-
-    ``numeric(H_robot, pose, p)`` takes a pose ``(3,)`` and a landmark ``(2,)``.
-
-    Parameters
-    ----------
-    expression : sympy Matrix (k, m)
-    arguments : sympy column vectors and symbols, in the order of the call
-
-    Returns
-    -------
-    function of as many arrays and numbers -> (k, m) float array; (k,) for a column
-    """
+    """Lambdify a SymPy matrix: like a model, ``numeric(H_robot, pose, p)`` takes arrays."""
     names = [list(a) if isinstance(a, sp.MatrixBase) else a for a in arguments]
     values = list(expression) if expression.shape[1] == 1 else expression
     evaluate = sp.lambdify(names, values, "numpy")

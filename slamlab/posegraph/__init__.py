@@ -1,12 +1,14 @@
-"""Pose graphs, graph SLAM's back end: relative-pose measurements and optimised poses.
+"""Pose graphs, the back end of graph SLAM.
 
 Read in this order:
 
-- ``edge_error``, ``edge_jacobians``, ``edge_symbolic``: one factor, a measured relative pose, and
-  the information of its error
-- ``pose_graph``: PoseGraph, the nodes and edges
-- ``normal_equations``, ``optimisation``: sparse Gauss-Newton; ``robust_kernel``: outlier loops
-- ``marginal_covariances``: how well a pose is known; ``g2o``: files
+- ``edge_error``, ``edge_jacobians``, ``edge_symbolic``: residual of one edge (factor)
+- ``pose_graph``: nodes and edges
+- ``normal_equations``; ``optimisation``: sparse Gauss-Newton, Levenberg-Marquardt
+- ``outlier_rejection``: rejects false loops, with ``spanning_tree``; ``robust_kernels``
+- ``marginal_covariances``: marginal covariance of each pose
+- ``g2o``: g2o files, with ``g2o_parser`` and ``graph_builder``
+- ``rotation_first``: initial poses from edges; ``gauge``: gauge freedom, fixed nodes
 """
 
 from slamlab.posegraph.optimisation import Optimum

@@ -1,120 +1,108 @@
-"""Pose-graph optimisation (optimization): least squares by Gauss-Newton, Levenberg-Marquardt.
-
-Nonlinear: the residuals are linearised (linearized) anew in every round.
-
-A step is damped only where Gauss-Newton's does not help. Robust edges are tightened from round to
-round, as graduated non-convexity does (Yang et al. 2020): at first every edge has its full weight,
-or drift alone would make the true ones look like outliers.
-"""
+"""Pose-graph optimisation (optimization, smoothing): nonlinear least squares by Gauss-Newton and
+Levenberg-Marquardt, which gives a maximum a posteriori estimate."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from slamlab.geometry import wrap
-from slamlab.posegraph import edge_error, robust_kernel
+from slamlab.posegraph import edge_error
 from slamlab.posegraph.edge_jacobians import J_i, J_j
 from slamlab.posegraph.normal_equations import NormalEquations, factorise
+from slamlab.posegraph.robust_kernels import LeastSquares
 
-GNC_FACTOR = 4.0  # graduated non-convexity: Φ is divided by this a round, down to its value [1]
 STEP_TOLERANCE = 1e-6  # converged: squared length of a step in standard deviations [1]
-MIN_DAMPING, MAX_DAMPING = 1e-7, 1e12  # below the least none is used, beyond the most none helps
+NO_KERNEL = LeastSquares()
+MIN_DAMPING, MAX_DAMPING = 1e-7, 1e12  # below the least: no damping; above the most: give up
 
 
 @dataclass(frozen=True)
 class Optimum:
-    """Result of a pose-graph optimisation: cost, rounds (iterations), convergence, edge weights.
+    """Result of a pose-graph optimisation.
 
     Parameters
     ----------
     chi2 : float, the cost Σ eᵀΛe, for robust edges Σ ρ(eᵀΛe)
-    rounds : int, iterations: linear systems solved
-    converged : bool, whether a further step would change nothing; False: the rounds were used up
-    weights : (m,) robust kernel's weight of each edge, in their order; 1 for those not robust
+    iterations : int, iterations
+    converged : bool; False if the maximum number of iterations was reached
+    weights : (m,) weights of the edges; 1 for edges that are not robust, 0 for rejected ones
+    runner_up : if a search found another solution, how much less likely it is (−2 log of the
+        ratio) and its distance from this one [m, rms]
+    ambiguous : bool, whether the runner-up is nearly as likely
     """
 
     chi2: float
-    rounds: int
+    iterations: int
     converged: bool
     weights: np.ndarray
+    runner_up: tuple | None = None
+    ambiguous: bool = False
 
 
-class Problem:
-    """Least-squares problem of a pose graph: its edges as arrays, poses given with each call.
+class LeastSquaresProblem:
+    """Least-squares problem of a pose graph: its m edges as arrays; the methods take poses.
 
-    Parameters
-    ----------
-    pairs : (m, 2) int
-    measured : (m, 3) [m, m, rad]
-    information : (m, 3, 3) of the residuals
-    robust : (m,) bool
-    free : (n,) bool
+    pairs : (m, 2) the poses' numbers, −1 for the world frame; free : see ``NormalEquations``.
     """
 
     def __init__(self, pairs, measured, information, robust, free):
-        self.i, self.j = pairs.T
+        self.pairs, self.free = pairs, free
         self.measured, self.information, self.robust = measured, information, robust
-        self.equations = NormalEquations(pairs, free)
+
+    @cached_property
+    def equations(self):
+        """The NormalEquations of these edges."""
+        return NormalEquations(self.pairs, self.free)
+
+    def select(self, edges):
+        """Return the problem of some edges, mask (m,)."""
+        arrays = self.pairs, self.measured, self.information, self.robust
+        return LeastSquaresProblem(*(array[edges] for array in arrays), self.free)
 
     def errors(self, poses):
-        """Residuals e (m, 3) and χ² (m,) of every edge."""
-        e = edge_error.error(poses[self.i], poses[self.j], self.measured)
+        """Return the residuals e (m, 3) and χ² (m,) of all edges."""
+        e = edge_error.error(*self._ends(poses), self.measured)
         return e, np.einsum("ma,mab,mb->m", e, self.information, e)
 
-    def cost(self, chi2, phi):
-        """Cost: Σ χ² of trusted edges and Σ ρ(χ²) of robust ones."""
-        return chi2[~self.robust].sum() + robust_kernel.cost(chi2[self.robust], phi).sum()
-
-    def weights(self, chi2, phi):
-        """Weights (m,) of the edges by the robust kernel; 1 for those not robust."""
-        weights = np.ones(len(chi2))
-        weights[self.robust] = robust_kernel.weight(chi2[self.robust], phi)
-        return weights
+    def _ends(self, poses):
+        return np.vstack([poses, np.zeros(3)])[self.pairs.T]  # number −1, the world frame
 
     def linearise(self, poses, e, weights):
-        """Linearise at these poses: information matrix H and gradient g."""
-        at = poses[self.i], poses[self.j], self.measured
+        """Linearise: return the information matrix H and the gradient g at these poses."""
+        at = *self._ends(poses), self.measured
         J = np.concatenate([J_i(*at), J_j(*at)], axis=-1)
         return self.equations.linearise(J, weights[:, None, None] * self.information, e)
 
 
-def optimise(problem, poses, max_rounds, phi, tolerance=STEP_TOLERANCE):
-    """Optimise (optimize) the poses: Gauss-Newton with Levenberg-Marquardt damping.
+def optimise(problem, poses, max_iterations, tolerance=STEP_TOLERANCE, kernel=NO_KERNEL):
+    """Optimise (optimize) poses (n, 3): Gauss-Newton with Levenberg-Marquardt damping.
 
-    Parameters
-    ----------
-    problem : Problem
-    poses : (n, 3) initial guesses [m, m, rad]
-    max_rounds : int
-    phi : float, Φ of the robust edges [1]
-    tolerance : float, squared length of a step in standard deviations that ends it [1]
-
-    Returns
-    -------
-    (n, 3) poses, Optimum
+    kernel : of the robust edges, of ``robust_kernels``, for iteratively reweighted least squares.
     """
-    e, chi2 = problem.errors(poses)
-    phi_now = max([phi, *chi2[problem.robust]])
-    damping, rounds, converged = 0.0, 0, not problem.equations.count
-    while rounds < max_rounds and not converged:
-        rounds += 1
-        H, g = problem.linearise(poses, e, problem.weights(chi2, phi_now))
+
+    def evaluated(poses):
+        e, chi2 = problem.errors(poses)
+        return e, chi2, np.where(problem.robust, kernel.cost(chi2), chi2).sum()
+
+    def weights(chi2):
+        return np.where(problem.robust, kernel.weight(chi2), 1.0)
+
+    e, chi2, cost = evaluated(poses)
+    damping, iterations, converged = 0.0, 0, not problem.free.any()
+    while iterations < max_iterations and not converged:
+        iterations += 1
+        H, g = problem.linearise(poses, e, weights(chi2))
         step = -factorise(problem.equations.damped(H, damping) if damping else H).solve(g)
         candidate = poses + problem.equations.to_poses(step)
         candidate[:, 2] = wrap(candidate[:, 2])
-        e_candidate, chi2_candidate = problem.errors(candidate)
-        small_step = -(g @ step) < tolerance  # δᵀHδ, the step in standard deviations
-        # not a number counts as worse
-        better = problem.cost(chi2_candidate, phi_now) <= problem.cost(chi2, phi_now)
-        if small_step or better:
-            poses, e, chi2 = candidate, e_candidate, chi2_candidate
+        new = evaluated(candidate)
+        converged = -(g @ step) < tolerance  # δᵀHδ, the step in standard deviations
+        if converged or new[2] <= cost:  # NaN counts as worse
+            poses, (e, chi2, cost) = candidate, new
             damping = damping / 3 if damping > MIN_DAMPING else 0.0
-            converged = small_step and phi_now <= phi
-            # nothing changes until Φ comes down to the worst edge
-            phi_now = max(phi, min(phi_now / GNC_FACTOR, chi2[problem.robust].max(initial=0)))
         else:
             damping = max(10 * damping, MIN_DAMPING)
             if damping > MAX_DAMPING:
                 break
-    weights = problem.weights(chi2, phi_now)
-    return poses, Optimum(float(problem.cost(chi2, phi_now)), rounds, converged, weights)
+    return poses, Optimum(float(cost), iterations, bool(converged), weights(chi2))

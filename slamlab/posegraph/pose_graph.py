@@ -1,4 +1,4 @@
-"""Pose graph: keyframe poses as nodes, relative-pose measurements as edges (factors)."""
+"""Pose graph: keyframe poses and landmarks as nodes, relative measurements as edges (factors)."""
 
 from typing import NamedTuple
 
@@ -6,12 +6,21 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from slamlab.posegraph import marginal_covariances, robust_kernel
-from slamlab.posegraph.optimisation import STEP_TOLERANCE, Problem, optimise
+from slamlab.posegraph import marginal_covariances
+from slamlab.posegraph.optimisation import NO_KERNEL, STEP_TOLERANCE, LeastSquaresProblem, optimise
+from slamlab.posegraph.outlier_rejection import reject_outliers
+from slamlab.posegraph.robust_kernels import PHI, Truncated
+from slamlab.posegraph.rotation_first import initial_poses, place_landmarks
+
+WORLD = -1  # number of the world frame, the first node of a prior
 
 
 class Edge(NamedTuple):
-    """Edge (factor) of a pose graph: a measured relative pose; see ``PoseGraph.add_edge``."""
+    """Edge (factor) of a pose graph: a measured relative pose; see ``PoseGraph.add_edge``.
+
+    i is ``WORLD`` for a prior. For a position (landmark, prior), the third entry of ``measured``
+    and the third row and column of ``information`` are zero, because the heading was not measured.
+    """
 
     i: int
     j: int
@@ -21,160 +30,167 @@ class Edge(NamedTuple):
 
 
 class PoseGraph:
-    """Pose graph: nodes are poses, edges measured relative poses (odometry and loop closures).
+    """Pose graph: nodes are poses, edges are measured relative poses (odometry and loop closures).
 
-    ``fixed`` holds the poses that stay where they are, at first only pose 0: edges alone leave it
-    open where the whole graph lies (gauge freedom). ``edges`` is the list of what was added.
+    ``poses`` (n, 3) are the first nodes. ``fixed`` is the set of fixed nodes, initially
+    pose 0, which fixes the gauge (gauge freedom). ``landmarks`` are the nodes without heading.
     """
 
-    def __init__(self):
+    def __init__(self, poses=()):
         self.fixed = {0}
-        self.edges = []
-        self._poses, self._count = np.empty((64, 3)), 0
+        self.landmarks = set()
+        self.edges, self.dropped = [], set()  # dropped: numbers of the rejected edges
+        self._poses = np.array(poses, dtype=float).reshape(-1, 3)
+        self._count = len(self._poses)
 
     def __len__(self):
         return self._count
 
     @property
     def poses(self):
-        """Poses (n, 3): initial guesses, after ``optimise`` the best [m, m, rad]; writable."""
+        """Poses (n, 3) [m, m, rad], writable: initial guesses; after ``optimise``, the optimum.
+
+        The row of a landmark contains its position and 0.
+        """
         return self._poses[: self._count]
 
     @poses.setter
     def poses(self, poses):
         poses = np.asarray(poses, dtype=float)
         if poses.shape != (self._count, 3):
-            raise ValueError(f"{self._count} poses are needed, not an array {poses.shape}")
+            raise ValueError(f"expected {self._count} poses (n, 3), not shape {poses.shape}")
         self._poses[: self._count] = poses
 
     def add_pose(self, pose):
-        """Add a pose (node).
-
-        Parameters
-        ----------
-        pose : (3,) initial guess [m, m, rad]
-
-        Returns
-        -------
-        int, its number: 0, 1, 2 …
-
-        Raises
-        ------
-        ValueError : not three finite numbers
-        """
-        pose = _check_finite(pose, (3,), "a pose is x, y and theta")
+        """Add a pose (node) with a guess (3,) [m, m, rad]; return its number. Raises ValueError."""
+        pose = _check_finite(pose, (3,), "a pose must be x, y and theta")
         if self._count == len(self._poses):
-            self._poses = np.concatenate([self._poses, np.empty_like(self._poses)])
+            self._poses = np.concatenate([self._poses, np.empty((max(64, self._count), 3))])
         self._poses[self._count] = pose
         self._count += 1
         return self._count - 1
 
+    def add_landmark(self, position):
+        """Add a landmark (node) with a guess (2,) [m]; return its number. Raises ValueError."""
+        number = self.add_pose([*_check_finite(position, (2,), "a landmark must be x and y"), 0.0])
+        self.landmarks.add(number)
+        return number
+
     def add_edge(self, i, j, measured, information, robust=False):
-        """Add an edge (factor): the measured relative pose of j as seen from i.
+        """Add an edge (factor): the measured relative pose (3,) [m, m, rad] of j relative to i.
 
-        Parameters
-        ----------
-        i, j : int, poses added before
-        measured : (3,) [m, m, rad]
-        information : (3, 3) information matrix of the residual e, in the frame that ``measured``
-            leads to (as in GTSAM and g2o); ``edge_error.information`` makes it of the covariance
-            of ``measured``, which is in the frame of pose i
-        robust : bool, whether it may be an outlier, as a loop closure may; it is then
-            weighed by dynamic covariance scaling (:mod:`slamlab.posegraph.robust_kernel`)
-
-        Raises
-        ------
-        ValueError : no such poses; not finite; the information is no inverse of a covariance
+        information : information matrix (3, 3) of the residual, in the frame at the end of
+        ``measured`` as in g2o, see ``edge_error.information``; robust : whether it may be an
+        outlier. For a landmark j, measured is (2,) and information (2, 2). Raises ValueError.
         """
         if not (0 <= i < self._count and 0 <= j < self._count and i != j):
             raise ValueError(
-                f"an edge joins two poses of 0 to {self._count - 1}, not {i} with {j}: add the "
-                "poses first"
+                f"an edge must connect two of the poses 0 to {self._count - 1}, not {i} and {j}: "
+                "add the poses first"
             )
         where = f"edge {i} to {j}"
-        measured = _check_finite(measured, (3,), f"{where}: a relative pose is x, y and theta")
-        information = _check_information(information, where)
-        self.edges.append(Edge(int(i), int(j), measured, information, bool(robust)))
+        if i in self.landmarks:
+            raise ValueError(f"{where}: an edge must lead from a pose to a landmark")
+        size = 2 if j in self.landmarks else 3
+        self._append(where, i, j, size, measured, information, robust)
 
-    def optimise(self, max_rounds=100, phi=robust_kernel.PHI, tolerance=STEP_TOLERANCE):
-        """Optimise the poses (nonlinear least squares): least Σ eᵀΛe, robust edges by ρ.
+    def add_prior(self, i, measured, information, robust=False):
+        """Add a prior on node i: its measured pose (3,) in the world frame, or position (2,).
 
-        Parameters
-        ----------
-        max_rounds : int; each solves one sparse linear system
-        phi : float, Φ: the χ² up to which a robust edge counts in full [1]
-        tolerance : float, a step ends it whose squared length in standard deviations is less [1]
-
-        Returns
-        -------
-        Optimum
-
-        Raises
-        ------
-        ValueError : a pose is not finite, no chain of edges ties it to a fixed one, or the edges
-            together leave it open
+        information : like that of ``add_edge``; zeros for components that were not measured. Raises
+        ValueError.
         """
-        poses, optimum = optimise(self._problem(), self.poses, max_rounds, phi, tolerance)
-        self.poses = poses
+        where = f"prior on {i}"
+        if not 0 <= i < self._count:
+            raise ValueError(f"{where}: the graph has only the poses 0 to {self._count - 1}")
+        size = 2 if i in self.landmarks or np.size(measured) == 2 else 3
+        self._append(where, WORLD, i, size, measured, information, robust)
+
+    def _append(self, where, i, j, size, measured, information, robust):
+        what = ["a position must be x and y", "a relative pose must be x, y and theta"][size - 2]
+        z, whole = np.zeros(3), np.zeros((3, 3))
+        z[:size] = _check_finite(measured, (size,), f"{where}: {what}")
+        whole[:size, :size] = _check_information(information, size, where, partial=i == WORLD)
+        self.edges.append(Edge(int(i), int(j), z, whole, bool(robust)))
+
+    def initialise(self):
+        """Set the poses to the guess of two linear problems, headings first, from the edges without
+        robust kernel, unless the present poses have a lower cost. Return whether they were set.
+
+        Every pose must be connected to a fixed pose by such edges. Raises ValueError.
+        """
+        problem, numbers = self._problem(), np.arange(self._count)
+        landmark = np.isin(numbers, list(self.landmarks))
+        pairs = problem.pairs
+        used = (pairs[:, 0] != WORLD) & ~landmark[pairs[:, 1]] & ~problem.robust
+        _check_connected(pairs[used], ~(np.isin(numbers, list(self.fixed)) | landmark))
+        roots = {i: self.poses[i] for i in self.fixed - self.landmarks}
+        edges = pairs[used], problem.measured[used], problem.information[used]
+        poses = initial_poses(self._count, *edges, roots)
+        place_landmarks(poses, pairs, problem.measured, landmark)
+        before, after = (
+            np.where(problem.robust, Truncated().cost(chi2), chi2).sum()
+            for chi2 in (problem.errors(guess)[1] for guess in (self.poses, poses))
+        )
+        if after < before:
+            self.poses = poses
+        return bool(after < before)
+
+    def optimise(self, max_iterations=100, phi=PHI, tolerance=STEP_TOLERANCE, kernel=None):
+        """Optimise the poses by nonlinear least squares, Σ eᵀΛe; returns an Optimum.
+
+        Robust edges that contradict the others are rejected: their cost is ``phi`` (truncated least
+        squares, several starts), and ``dropped`` contains their numbers. With a ``kernel`` of
+        ``robust_kernels``, only the local minimum near the present poses is found. tolerance :
+        squared length of the last step, in standard deviations. Raises ValueError if a pose is not
+        finite or not connected.
+        """
+        problem, settings = self._problem(), (max_iterations, tolerance)
+        if kernel is not None or not problem.robust.any():
+            self.dropped, kernel = set(), kernel or NO_KERNEL
+            self.poses, optimum = optimise(problem, self.poses, *settings, kernel)
+            return optimum
+        before = np.isin(np.arange(len(self.edges)), list(self.dropped))
+        fixed = np.array([i for i in self.fixed if i < self._count], dtype=int)
+        found = reject_outliers(problem, self.poses, fixed, before, phi, settings)
+        self.poses, optimum = found
+        self.dropped = set(np.flatnonzero(optimum.weights == 0).tolist())
         return optimum
 
-    def covariances(self, phi=robust_kernel.PHI):
-        """Marginal covariance of each pose, to be called at the optimum: the blocks of H⁻¹.
+    def covariances(self, nodes=None):
+        """Return marginal covariances (n, 3, 3) at the optimum, 0 for fixed nodes; if ``nodes`` is
+        given, only of these nodes.
 
-        Parameters
-        ----------
-        phi : float, as for ``optimise``
-
-        Returns
-        -------
-        (n, 3, 3) of x, y and theta [m, m, rad], zero for a fixed pose
-
-        Raises
-        ------
-        ValueError : as ``optimise``
+        The third row and column of a landmark are 0. Raises ValueError.
         """
-        return marginal_covariances.covariances(self._problem(), self.poses, phi)
+        nodes = np.arange(self._count) if nodes is None else np.asarray(nodes, dtype=int)
+        return marginal_covariances.covariances(self._accepted(), self.poses, nodes)
 
-    def squared_mahalanobis(self, i, j, measured, information, phi=robust_kernel.PHI):
-        """Squared Mahalanobis distance of candidate edges (loop closures): chi-square (χ²) test.
+    def squared_mahalanobis(self, i, j, measured, information):
+        """Return squared Mahalanobis distances of loop-closure candidates (edges), at the optimum.
 
-        Drift is accounted for: a true edge has a χ² of 3 degrees of freedom. To be called at the
-        optimum.
-
-        Parameters
-        ----------
-        i, j : int, or (c,) int
-        measured : (3,), or (c, 3) [m, m, rad]
-        information : (3, 3) or (c, 3, 3) of the residual, as for ``add_edge``
-        phi : float, as for ``optimise``
-
-        Returns
-        -------
-        float or (c,) [1]
-
-        Raises
-        ------
-        ValueError : as ``optimise``
+        True edges give χ² with 3 degrees of freedom. Arguments: as in ``add_edge``, or arrays (c,).
         """
         pairs = np.column_stack(np.broadcast_arrays(np.atleast_1d(i), np.atleast_1d(j)))
         z = np.broadcast_to(np.asarray(measured, dtype=float), (len(pairs), 3))
         R = np.linalg.inv(np.asarray(information, dtype=float))
-        at = self._problem(), self.poses, pairs
-        distances = marginal_covariances.squared_mahalanobis(*at, z, R, phi)
+        at = self._accepted(), self.poses, pairs
+        distances = marginal_covariances.squared_mahalanobis(*at, z, R)
         return distances if np.ndim(i) else float(distances[0])
 
-    surprise = squared_mahalanobis  # name in the first edition
+    def _accepted(self):
+        return self._problem().select(~np.isin(np.arange(len(self.edges)), list(self.dropped)))
 
     def _problem(self):
-        """Least-squares problem of the edges, checked."""
         if not np.isfinite(self.poses).all():
             bad = np.flatnonzero(~np.isfinite(self.poses).all(axis=1))
             raise ValueError(f"the guess of pose {bad[0]} is not finite")
-        free = np.ones(self._count, dtype=bool)
+        free = np.ones((self._count, 3), dtype=bool)
         free[[i for i in self.fixed if i < self._count]] = False
         pairs = np.array([(edge.i, edge.j) for edge in self.edges], dtype=int).reshape(-1, 2)
-        _check_connected(pairs, free)
-        return Problem(
+        _check_connected(pairs, free[:, 0])
+        free[list(self.landmarks), 2] = False
+        return LeastSquaresProblem(
             pairs,
             np.array([edge.measured for edge in self.edges]).reshape(-1, 3),
             np.array([edge.information for edge in self.edges]).reshape(-1, 3, 3),
@@ -183,34 +199,46 @@ class PoseGraph:
         )
 
 
+def smallest_eigenvalues(information):
+    """Return least eigenvalues of symmetric matrices (m, k, k), divided by the largest entries."""
+    scale = np.abs(information).max(axis=(1, 2), initial=0)
+    scaled = information / np.where(scale > 0, scale, 1)[:, None, None]
+    return np.linalg.eigvalsh(scaled)[:, 0]
+
+
+def components(pairs, count):
+    """Number the connected components; return one number per node, then the world frame's."""
+    pairs = pairs % (count + 1)
+    links = coo_array((np.ones(len(pairs)), tuple(pairs.T)), shape=(count + 1,) * 2)
+    return connected_components(links, directed=False)[1]
+
+
 def _check_finite(numbers, shape, what):
     array = np.asarray(numbers, dtype=float)
     if array.shape != shape or not np.isfinite(array).all():
-        raise ValueError(f"{what}, finite numbers, not {numbers!r}")
+        raise ValueError(f"{what}, all finite, not {numbers!r}")
     return array.copy()
 
 
-def _check_information(information, where):
-    """Check an information matrix: symmetric and positive definite."""
-    information = _check_finite(information, (3, 3), f"{where}: the information has 3 rows of 3")
+def _check_information(information, size, where, partial):
+    what = f"{where}: the information must have {size} rows of {size} numbers"
+    information = _check_finite(information, (size, size), what)
     if np.abs(information - information.T).max() > 1e-6 * np.abs(information).max():
         raise ValueError(f"{where}: the information must be symmetric")
-    if not np.linalg.eigvalsh(information)[0] > 0:
+    least = smallest_eigenvalues(information[None])[0]
+    if not (least > 0 or (partial and least > -1e-9 and information.any())):
         raise ValueError(
-            f"{where}: the information is singular or negative; where a direction was not "
-            "measured (degenerate), give it a little"
+            f"{where}: the information is singular or negative; if a direction was not measured "
+            "(degenerate), give it a small information"
         )
     return information
 
 
 def _check_connected(pairs, free):
-    """Check that every pose is connected to a fixed one by edges."""
-    count = len(free)
-    links = coo_array((np.ones(len(pairs)), tuple(pairs.T)), shape=(count, count))
-    _, group = connected_components(links, directed=False)
-    loose = np.flatnonzero(~np.isin(group, group[~free]))
+    group = components(pairs, len(free))
+    loose = np.flatnonzero(~np.isin(group[:-1], group[np.append(~free, True)]))
     if len(loose):
         raise ValueError(
-            f"{len(loose)} of {count} poses, pose {loose[0]} first, are not connected to a "
-            "fixed pose by any chain of edges: add the missing edge"
+            f"{len(loose)} of {len(free)} poses are not connected to a fixed pose by edges (first: "
+            f"pose {loose[0]}): add the missing edge"
         )

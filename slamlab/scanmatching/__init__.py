@@ -1,32 +1,31 @@
-"""Scan matching (scan registration): where a scan was taken, found by laying it over another.
+"""Scan matching (scan registration).
 
 Read in this order:
 
-- ``icp_point_to_point``, ``icp_point_to_line``, ``nearest_neighbours``: ICP as in lesson 13
-- ``matcher``: match, the one that the SLAMs use, a step each in:
-  ``surfaces`` (with ``local_line_fits``, ``neighbourhoods``, ``normals``), ``correlative_search``,
-  ``correspondences``, ``registration``, ``match_covariance`` (degenerate directions),
-  ``common_error``,
-  ``match_quality``
-- ``submap``: several scans as one, to match the next with; ``match_result``: what comes back
+- ``icp_point_to_point``, ``icp_point_to_line``, ``nearest_neighbours``: textbook ICP
+- ``scan_matcher``: the scan matcher for SLAM, based on ``preprocessing`` (``beam_order``,
+  ``local_line_fits``, ``normals``, ``adaptive_neighbourhoods``, ``quantiles``), ``centroids``,
+  ``correlative_matching``, ``correspondences``, ``registration``, ``match_covariance``,
+  ``correlated_errors``, ``match_quality`` and ``match_result``
+- ``submap``: several scans as one target
 """
 
 from slamlab.scanmatching.icp_point_to_line import point_to_line
 from slamlab.scanmatching.icp_point_to_point import point_to_point, rigid_fit
-from slamlab.scanmatching.match_result import Match, Round
-from slamlab.scanmatching.matcher import Alignment, match
+from slamlab.scanmatching.match_result import Iteration, Match
 from slamlab.scanmatching.normals import normals
-from slamlab.scanmatching.surfaces import Surface, surface
+from slamlab.scanmatching.preprocessing import PointCloud, preprocess
+from slamlab.scanmatching.scan_matcher import Alignment, match
 
 __all__ = [
     "Alignment",
+    "Iteration",
     "Match",
-    "Round",
-    "Surface",
+    "PointCloud",
     "match",
     "normals",
     "point_to_line",
     "point_to_point",
+    "preprocess",
     "rigid_fit",
-    "surface",
 ]

@@ -1,18 +1,21 @@
-"""Point-to-line ICP: point to line distances (Censi 2008); in space it is point-to-plane."""
+"""Point-to-line ICP (iterative closest point), PLICP (2008); in 3-D, point-to-plane ICP."""
 
 import numpy as np
 
 from slamlab.geometry import transform, wrap
-from slamlab.scanmatching.match_result import Match, Round, check_clouds, check_limits
+from slamlab.scanmatching.centroids import Centroids
+from slamlab.scanmatching.match_result import Iteration, Match, check_clouds, check_limits
 from slamlab.scanmatching.nearest_neighbours import NearestNeighbours
 from slamlab.scanmatching.normals import normals
+from slamlab.scanmatching.quantiles import median
 
-# status words of a match
+# verdicts of a match
 CONVERGED = "the steps are below the tolerance"
-LOST = "too few pairs agree: too little overlap or too poor a first guess"
+LOST = "too few correspondences: too little overlap, or a poor initial guess"
 DAMP_AFTER = 20  # iterations after which steps are damped
-MIN_PAIRED_SHARE = 0.1  # least share of the source in correspondences [1]
-MIN_KERNEL_WIDTH = 0.02  # robust kernel's least width: a residual below is never an outlier [m]
+MIN_MATCHED_SHARE = 0.1  # least share of source points with a correspondence [1]
+MIN_KERNEL_WIDTH = 0.02  # robust kernel's least width: a smaller residual is no outlier [m]
+MAX_RANGE_FACTOR = 100.0  # ranges are limited to so many median ranges [1]
 DEGENERATE_SHARE = 1e-4  # an eigenvalue under this share of the largest is degenerate [1]
 
 
@@ -22,123 +25,110 @@ def point_to_line(
     initial=(0.0, 0.0, 0.0),
     *,
     tolerance=1e-4,
-    max_rounds=60,
+    max_iterations=60,
     keep=1.0,
     gate=(1.0, 0.1),
     normal_gate=0.7,
-    trust=None,
+    prior_sigmas=None,
     history=False,
 ):
-    """Point-to-line ICP: register a source point cloud to the walls that a target cloud shows.
+    """Point-to-line ICP: register a source point cloud to the walls of a target cloud.
 
-    Each round pairs nearest points, drops pairs too far apart or whose walls point elsewhere,
-    keeps the share that lies best, weighs it by Cauchy's function and takes a Gauss-Newton step on
-    Σ w_i e_i² / c² + δᵀ P⁻¹ δ, with e_i of Equation (13.6), δ the way from the first guess and P
-    its covariance, where it has one: along a corridor, which no wall fixes, the guess then stands.
-    The longest pair shrinks from round to round. Stops when a step moves no point by the tolerance.
+    Each iteration finds correspondences (nearest neighbours inside shrinking gates) and makes a
+    Gauss-Newton step on the cost Σ w_i e_i² / c² + δᵀ P⁻¹ δ, with e_i of Equation (13.6), Cauchy's
+    robust kernel w_i, the difference δ from the initial guess, and its covariance P.
 
     Parameters
     ----------
-    source : (n, 2) points [m]
-    target : (m, 2) points [m]
+    source, target : (n, 2), (m, 2) points [m]
     initial : (3,) initial guess of the source's frame in the target's [m, m, rad]
-    tolerance : float [m]
-    max_rounds : int, iterations at most
-    keep : float, share of the agreeing pairs to fit (trimmed ICP); the others are outliers
-    gate : (2,) gate: longest pair in the first and in the last rounds [m]
-    normal_gate : float, largest angle between the two walls of a pair [rad]
-    trust : (3,) standard deviations of the initial guess as a prior [m, m, rad], or None
-    history : bool, keep a Round for the start and after each fit
+    tolerance : float, of the largest motion of a point [m]
+    max_iterations : int
+    keep : float, share of the correspondences to fit (trimmed ICP) [1]
+    gate : (2,) largest distance of a correspondence in the first and the last iterations [m]
+    normal_gate : float, largest angle between the normals of a correspondence [rad]
+    prior_sigmas : (3,) standard deviations of the initial guess [m, m, rad], or None; for clouds
+        far from the origin, of the source's centroid
+    history : bool, keep an Iteration for the initial guess and each step
 
     Returns
     -------
-    Match, its error the mean distance across the walls
+    Match, its error the mean point-to-line distance
 
     Raises
     ------
-    ValueError : fewer than 3 points, wrong shapes, NaN, senseless limits
+    ValueError : unusable points or limits
     """
     source, target, pose = check_clouds(source, target, initial)
-    check_limits(tolerance, max_rounds, keep)
+    check_limits(tolerance, max_iterations, keep)
+    centres = Centroids.of(source, target)
+    source, target, pose = source - centres.source, target - centres.target, centres.inward(pose)
     nearest = NearestNeighbours(target)
     n_source, n_target = normals(source), normals(target)
-    start, information = pose, np.zeros(3) if trust is None else 1 / np.asarray(trust) ** 2
-    reach = np.hypot(*source.T).max()
-    rounds_kept, width, verdict = [], max(gate), ""
-    for rounds in range(max_rounds + 1):
+    start, information = (
+        pose,
+        np.zeros(3) if prior_sigmas is None else 1 / np.asarray(prior_sigmas) ** 2,
+    )
+    ranges = np.hypot(*source.T)
+    reach = min(ranges.max(), MAX_RANGE_FACTOR * median(ranges))
+    iterations_kept, width, verdict = [], max(gate), ""
+    for iterations in range(max_iterations + 1):
         moved = transform(pose, source)
         distances, indices = nearest(moved)
         n = n_target[indices]
         agree = _normals_agree(n, n_source, pose[2], normal_gate)
         used = np.flatnonzero((distances <= width) & agree)
         residuals = np.einsum("ij,ij->i", n[used], (moved - target[indices])[used])
-        if len(used) < max(3, MIN_PAIRED_SHARE * len(source)):
+        if len(used) < max(3, MIN_MATCHED_SHARE * len(source)):
             verdict = LOST
         elif keep < 1:
             best = np.abs(residuals) <= np.quantile(np.abs(residuals), keep)
             used, residuals = used[best], residuals[best]
         error = float(np.abs(residuals).mean()) if len(used) else np.nan
         if history:
-            rounds_kept.append(Round(pose, error, np.column_stack([used, indices[used]])))
-        if verdict or rounds == max_rounds:
+            pairs = np.column_stack([used, indices[used]])
+            iterations_kept.append(Iteration(centres.outward(pose), error, pairs))
+        if verdict or iterations == max_iterations:
             break
         c = max(MIN_KERNEL_WIDTH, width / 10, 1.4826 * np.median(np.abs(residuals)))
         guess = pose - start
         guess[2] = wrap(guess[2])
         step = _gauss_newton_step(n[used], moved[used] - pose[:2], residuals, c, information, guess)
-        # pairs that flip to and fro would never let it rest: late steps are damped
-        step *= 0.9 ** max(0, rounds - DAMP_AFTER)
+        # alternating correspondences can prevent convergence: late steps are damped
+        step *= 0.9 ** max(0, iterations - DAMP_AFTER)
         pose = np.array([*(pose + step)[:2], wrap(pose[2] + step[2])])
         if width <= min(gate) and np.hypot(*step[:2]) + reach * abs(step[2]) < tolerance:
             verdict = CONVERGED
         width = max(min(gate), 0.8 * width)
     return Match(
-        pose,
-        rounds,
+        centres.outward(pose),
+        iterations,
         error,
         len(used) / len(source),
         verdict == CONVERGED,
-        verdict or f"still moving after {rounds} rounds",
-        tuple(rounds_kept),
+        verdict or f"still moving after {iterations} iterations",
+        tuple(iterations_kept),
     )
 
 
 def _normals_agree(n, n_source, turn, limit):
-    """Gate by normals: (k,) bool, both are known and, turned, differ by less than the limit.
-
-    A normal has no front: opposite ones count as the same.
-    """
+    """Return (k,) whether both normals are known and, after rotation, parallel up to the limit."""
     cosine = np.abs(np.einsum("ij,ij->i", n, transform([0.0, 0.0, turn], n_source)))
     with np.errstate(invalid="ignore"):
         return cosine > np.cos(limit)
 
 
 def _gauss_newton_step(n, arm, residuals, c, information, guess):
-    """Gauss-Newton step (dx, dy, dθ) that lowers Σ w e² / c² + δᵀ diag(information) δ.
-
-    Equations (13.7) and (13.8), with Cauchy's weight w = 1 / (1 + (e/c)²). A degenerate
-    direction, which neither the walls nor the first guess fix, is left as it was.
-
-    Parameters
-    ----------
-    n : (k, 2) unit normals
-    arm : (k, 2) points seen from the robot, in the target's directions [m]
-    residuals : (k,) e, distances across the walls [m]
-    c : float, residual at which a pair counts half [m]
-    information : (3,) of the first guess [1/m², 1/m², 1/rad²]
-    guess : (3,) δ, how far the pose is from the first guess [m, m, rad]
-
-    Returns
-    -------
-    (3,) [m, m, rad]
-    """
+    """Compute a Gauss-Newton step (dx, dy, dθ) by the normal equations of Σ w e² / c² + δᵀ
+    diag(information) δ, Equations (13.7) and (13.8), w = 1 / (1 + (e/c)²); zero in an unconstrained
+    direction. ``arm`` (k, 2): points relative to the robot, rotated to the target's frame."""
     w = 1 / (1 + (residuals / c) ** 2)
-    # angles count as the way a point at the middling distance goes
+    # rotation is scaled to metres by the root mean square distance
     scale = np.array([1, 1, 1 / max(1e-9, np.sqrt(np.mean(arm**2)))])
     J = np.column_stack([n, arm[:, 0] * n[:, 1] - arm[:, 1] * n[:, 0]]) * scale
     prior = c**2 * information * scale
     A = J.T @ (w[:, None] * J) + np.diag(prior * scale)
     eigenvalues, axes = np.linalg.eigh(A)
     fixed = eigenvalues > DEGENERATE_SHARE * eigenvalues[-1]
-    downhill = axes.T @ -(J.T @ (w * residuals) + prior * guess)
-    return scale * (axes[:, fixed] @ (downhill[fixed] / eigenvalues[fixed]))
+    descent = axes.T @ -(J.T @ (w * residuals) + prior * guess)
+    return scale * (axes[:, fixed] @ (descent[fixed] / eigenvalues[fixed]))

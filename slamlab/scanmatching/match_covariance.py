@@ -1,4 +1,4 @@
-"""Covariance of a scan match (Censi), and its degenerate, under-constrained directions."""
+"""ICP covariance of a scan match (Censi); detection of degenerate directions (unobservable)."""
 
 from dataclasses import dataclass
 
@@ -9,17 +9,8 @@ from slamlab.scanmatching.registration import information_floor, robust_kernel, 
 
 @dataclass(frozen=True)
 class Observability:
-    """Observability of a match: eigenvalues of the information matrix Λ of [x, y, θ reach].
-
-    A degenerate direction, such as that along a corridor, is one that no wall constrains.
-
-    Parameters
-    ----------
-    eigenvalues : (3,) increasing [1/m²]
-    directions : (3, 3) their unit vectors in columns
-    floor : float, a direction with no more information than that is degenerate [1/m²]
-    reach : float, root mean square distance of the source's points [m]
-    """
+    """Eigenvalues (3,) [1/m²] and ``directions`` (eigenvectors) (3, 3) of the information matrix of
+    [x, y, θ reach]. An eigenvalue below ``floor`` is degenerate, such as along a corridor."""
 
     eigenvalues: np.ndarray
     directions: np.ndarray
@@ -28,69 +19,46 @@ class Observability:
 
     @property
     def fixed(self):
-        """Observable directions, (3,) bool: those that walls fix (constrain)."""
         return self.eigenvalues > self.floor
 
     @property
     def degenerate(self):
-        """Degenerate directions, (3,) bool: under-constrained, no wall fixes them."""
+        """Whether each direction is degenerate, (3,) bool: no wall constrains it."""
         return ~self.fixed
 
     def in_words(self):
-        """Which directions are degenerate, in words; empty where all are observable."""
+        """Describe the degenerate directions, or return ""."""
         free = self.directions[:, self.degenerate].T
         if len(free) == 0:
             return ""
         if len(free) > 1:
-            return f"degenerate: {('two', 'three')[len(free) - 2]} directions are free"
+            return f"degenerate in {('two', 'three')[len(free) - 2]} directions"
         x, y, turn = free[0]
         if abs(turn) > np.hypot(x, y):
-            return "degenerate: turns freely"
-        return f"degenerate: slides along {np.degrees(np.arctan2(y, x)) % 180:.0f}°"
+            return "degenerate in rotation"
+        return f"degenerate along {np.degrees(np.arctan2(y, x)) % 180:.0f}°"
 
 
-def observability(source, target, pairs, kernel_width):
-    """Observability at a minimum of Σ ρ(r), ρ' = w r: eigenvalues of the information matrix.
-
-    Parameters
-    ----------
-    source, target : Surface
-    pairs : Pairs at the minimum
-    kernel_width : float c of the robust weights [m]
-
-    Returns
-    -------
-    Observability; (3, n) the sensitivity ∂g/∂r of its gradient g to each residual
-    """
-    # ρ'' turns negative for far pairs, which hold nothing
-    kernel = robust_kernel(pairs, kernel_width)
-    w = robust_weights(pairs, kernel, True)
-    sensitivity = pairs.J * np.maximum(w * (4 * kernel - 3), 0.0)
-    values, axes = np.linalg.eigh(sensitivity @ pairs.J.T)
-    floor = information_floor(pairs, w, target, values.sum())
+def observability(source, target, correspondences, kernel_width):
+    """Return Observability at a minimum of the cost Σ ρ(r), ρ' = w r, with sensitivity ∂g/∂r."""
+    # ρ'' is negative for large residuals, which do not constrain the pose
+    kernel = robust_kernel(correspondences, kernel_width)
+    w = robust_weights(correspondences, kernel, True)
+    sensitivity = correspondences.J * np.maximum(w * (4 * kernel - 3), 0.0)
+    values, axes = np.linalg.eigh(sensitivity @ correspondences.J.T)
+    floor = information_floor(correspondences, w, target, values.sum())
     return Observability(values, axes, floor, source.reach), sensitivity
 
 
-def censi(source, target, pairs, kernel_width):
-    """Censi's covariance of the pose that minimises Σ ρ(r), from the measurement noise alone.
-
-    P = Λ⁻¹ (∂γ/∂z) cov(z) (∂γ/∂z)ᵀ Λ⁻¹ with the gradient γ of Σ ρ and Λ its derivative (Censi 2007,
-    "An accurate closed-form estimate of ICP's covariance"), Equation (13.14). A point of the source
-    has one residual; one of the target has a share in every line that is fitted through it. In a
-    degenerate direction the standard deviation is the width of the surface.
-
-    Parameters
-    ----------
-    source, target : Surface
-    pairs : Pairs at the minimum
-    kernel_width : float c of the robust weights [m]
-
-    Returns
-    -------
-    (3, 3) covariance of [x, y, θ] [m, m, rad]
-    """
-    seen, g = observability(source, target, pairs, kernel_width)
-    M = (g * source.fits.across_variance) @ g.T + _target_noise(g, pairs.association, target)
+def icp_covariance(source, target, correspondences, kernel_width):
+    """Compute the covariance (3, 3) of the matched pose due to the measurement noise: P = Λ⁻¹
+    (∂γ/∂z) cov(z) (∂γ/∂z)ᵀ Λ⁻¹ with the gradient γ of the cost Σ ρ and its Hessian Λ (Censi 2007,
+    "An accurate closed-form estimate of ICP's covariance"). Equation (13.14). The standard
+    deviation of a degenerate direction is the extent of the source."""
+    seen, g = observability(source, target, correspondences, kernel_width)
+    M = (g * source.fits.across_variance) @ g.T + _target_noise(
+        g, correspondences.association, target
+    )
     axes, degenerate = seen.directions, seen.degenerate
     back = axes * (~degenerate / np.where(degenerate, 1, seen.eigenvalues))
     P = back @ (axes.T @ M @ axes) @ back.T + (axes * (degenerate * seen.reach**2)) @ axes.T
@@ -99,11 +67,11 @@ def censi(source, target, pairs, kernel_width):
 
 
 def _target_noise(g, association, target):
-    """Share of the target's noise: Σ_j G_j G_jᵀ v_j, G_j the summed sensitivity to its point j."""
+    """Return the effect of the target's noise, Σ_j G_j G_jᵀ v_j; G_j: sensitivity to point j."""
     target_index, windows = association.target_index, target.fits.windows
     if windows is not None:
         g = g / windows.count[target_index]
     G = np.array([np.bincount(target_index, row, len(target)) for row in g])
-    if windows is not None:  # a line is the mean of its points, each has its share in it
+    if windows is not None:  # each point of a window contributes equally to its line
         G = windows.sums(G)
     return (G * target.fits.across_variance) @ G.T

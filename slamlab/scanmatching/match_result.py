@@ -1,22 +1,22 @@
-"""Result of a scan match (pose, iterations, convergence), and checks of its point clouds."""
+"""Result of a scan match, and checks of its input."""
 
 from dataclasses import dataclass
 from math import isfinite
 
 import numpy as np
 
-MAX_COORDINATE = 1e7  # of a point: more is taken for a wrong unit [m]
+MAX_COORDINATE = 1e7  # of a point: more is assumed to be a wrong unit [m]
 
 
 @dataclass(frozen=True)
-class Round:
-    """One iteration (round) of a scan matcher: its pose and correspondences, to watch it converge.
+class Iteration:
+    """One iteration of a scan matcher.
 
     Parameters
     ----------
-    pose : (3,) the source's frame in the target's, at which they were found [m, m, rad]
-    error : float, mean residual: distance of the pairs [m]
-    pairs : (k, 2) int, rows of an index into the source and one into the target
+    pose : (3,) the source's frame in the target's [m, m, rad]
+    error : float, mean distance of the correspondences [m]
+    pairs : (k, 2) int, correspondences: rows of source and target
     """
 
     pose: np.ndarray
@@ -26,50 +26,36 @@ class Round:
 
 @dataclass(frozen=True)
 class Match:
-    """Result of scan registration: the pose of a source point cloud in a target's frame.
+    """Result of scan registration.
 
     Parameters
     ----------
     pose : (3,) the source's frame in the target's [m, m, rad]; always finite
-    rounds : int, iterations: how often pairs were fitted
-    error : float, mean residual of the inlier pairs at this pose [m]; NaN without pairs
-    share : float, inlier pairs as a share of the source's points [1]
-    converged : bool, False where max_rounds or too few pairs ended it
-    verdict : str, status in words: why it stopped
-    history : tuple of Round, the initial guess and each iteration; empty unless asked for
+    iterations : int, iterations
+    error : float, mean residual of the inliers [m]; NaN without any
+    inlier_ratio : float, inliers as a share of the source's points [1]
+    converged : bool
+    verdict : str, the reason why the iterations stopped
+    history : tuple of Iteration, from the initial guess on, if requested
     """
 
     pose: np.ndarray
-    rounds: int
+    iterations: int
     error: float
-    share: float
+    inlier_ratio: float
     converged: bool
     verdict: str
-    history: tuple[Round, ...] = ()
+    history: tuple[Iteration, ...] = ()
 
 
 def check_clouds(source, target, initial):
-    """Validate two point clouds and an initial guess; return them as float arrays.
-
-    Parameters
-    ----------
-    source, target : (n, 2), (m, 2) points [m]
-    initial : (3,) [m, m, rad]
-
-    Returns
-    -------
-    (n, 2), (m, 2), (3,) float arrays
-
-    Raises
-    ------
-    ValueError : what is wrong with which of them
-    """
+    """Return two point clouds and an initial guess as float arrays. Raises ValueError."""
     initial = check_pose(initial)
     return check_cloud(source, "source"), check_cloud(target, "target"), initial
 
 
 def check_pose(initial):
-    """Validate an initial guess: a float array (3,) of its own; ValueError if not finite."""
+    """Return the initial guess as a new float array (3,). ValueError: the guess is not finite."""
     initial = np.array(initial, dtype=float)
     if initial.shape != (3,) or not all(map(isfinite, initial.tolist())):
         raise ValueError(f"initial must be a finite pose [x, y, theta], got {initial.tolist()}")
@@ -77,36 +63,31 @@ def check_pose(initial):
 
 
 def check_cloud(points, name):
-    """Validate a point cloud: a float array (n, 2); ValueError says what is wrong with it."""
+    """Return the point cloud as a float array (n, 2). ValueError: the cloud is unusable."""
     points = np.asarray(points, dtype=float)
     if points.ndim != 2 or points.shape[1] != 2:
         raise ValueError(f"{name} must have shape (n, 2), got {points.shape}")
     if len(points) < 3:
-        raise ValueError(f"{name} has {len(points)} points, a match needs at least 3")
+        raise ValueError(f"{name} has {len(points)} points; a match needs at least 3")
     farthest = np.abs(points).max()  # NaN where one is
     if not isfinite(farthest):
-        raise ValueError(f"{name} holds NaN or infinite points: leave out beams without return")
+        raise ValueError(f"{name} contains NaN or infinity: leave out beams without a return")
     if farthest > MAX_COORDINATE:
-        raise ValueError(f"{name} has points beyond {MAX_COORDINATE:.0e} m: is it in metres?")
+        beyond = np.count_nonzero(np.abs(points).max(axis=1) > MAX_COORDINATE)
+        raise ValueError(
+            f"{name} has {beyond} of {len(points)} points beyond {MAX_COORDINATE:.0e} m: "
+            "leave out beams without a return, and use metres"
+        )
     return points
 
 
-def check_limits(tolerance, max_rounds, keep):
-    """Validate the stopping and trimming options of both ICPs.
-
-    Parameters
-    ----------
-    tolerance : float > 0 [m]
-    max_rounds : int >= 1
-    keep : float in (0, 1]
-
-    Raises
-    ------
-    ValueError
-    """
+def check_limits(tolerance, max_iterations, keep):
+    """Raise ValueError unless tolerance > 0, max_iterations >= 1, and 0 < keep <= 1."""
     if not tolerance > 0:
         raise ValueError(f"tolerance must be above 0 m, got {tolerance}")
-    if max_rounds < 1:
-        raise ValueError(f"max_rounds must be at least 1, got {max_rounds}")
+    if max_iterations < 1:
+        raise ValueError(f"max_iterations must be at least 1, got {max_iterations}")
     if not 0 < keep <= 1:
-        raise ValueError(f"keep is a share of the pairs, above 0 and at most 1, got {keep}")
+        raise ValueError(
+            f"keep must be a share of the correspondences above 0 and at most 1, got {keep}"
+        )

@@ -1,19 +1,12 @@
-"""Nearest neighbours by KD-tree for ICP, with caching between iterations."""
+"""Nearest neighbours for ICP by a k-d tree, cached between iterations."""
 
 import numpy as np
 from scipy.spatial import cKDTree
 
 
 class NearestNeighbours:
-    """Exact nearest-neighbour search (KD-tree) in a target, cached for a source that moves little.
-
-    The tree is built once. A point whose nearest neighbour was d1 away and its second d2 keeps it
-    while it moves less than (d2 - d1) / 2, so late rounds, which move little, ask for few points.
-
-    Parameters
-    ----------
-    target : (m, 2) points [m], m >= 2
-    """
+    """Exact nearest neighbours in a target (m, 2), m >= 2. With distances d1, d2 of the nearest and
+    the second point, the nearest stays the same while a point moves by less than (d2 - d1) / 2."""
 
     def __init__(self, target):
         self.target = target
@@ -21,16 +14,7 @@ class NearestNeighbours:
         self._queried_at = None
 
     def __call__(self, source):
-        """Query the nearest neighbours: distances to the nearest target points, and their indices.
-
-        Parameters
-        ----------
-        source : (n, 2) points [m], the same points in each call, moved
-
-        Returns
-        -------
-        (n,) [m], (n,) int
-        """
+        """Return distances (n,) [m] and indices (n,) of n points, the same points in each call."""
         if self._queried_at is None:
             self._queried_at = np.array(source)
             self._indices = np.empty(len(source), dtype=int)

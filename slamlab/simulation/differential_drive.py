@@ -1,4 +1,4 @@
-"""Simulator of a differential-drive robot: ground-truth pose, encoders, odometry with slip."""
+"""Simulator of a differential-drive robot: ground-truth pose, encoders, wheel slip, odometry."""
 
 from dataclasses import dataclass
 
@@ -10,20 +10,17 @@ from slamlab.models.parameters import RobotModel
 
 @dataclass(frozen=True)
 class DifferentialDrive:
-    """Differential drive: two wheels with encoders, and every error of their odometry as a number.
+    """Differential-drive model: two wheels, encoders, systematic and random odometry errors.
 
     Parameters
     ----------
-    base : float, distance of the wheels as odometry believes it [m]
-    tick : float, way a wheel rolls between two ticks of its encoder, as odometry believes it [m]
-    left_scale, right_scale : float, true way of a wheel over believed way [1]
-    base_scale : float, true over believed base [1]
-    slip : float, random difference between rolled and travelled way, standard deviation after
-        1 m; it grows with the root of the way, so it does not matter how the way is cut [m/√m]
-    radius : float, for drawing and for keeping off the walls [m]
-    phase : float, where between two ticks the encoders stand at the start, 0 to 1. For a robot all
-        of whose commands roll whole ticks it is one half: at 0 or 1 the last bit of a sum would
-        decide when a tick is counted, and processors differ there [1]
+    base, tick : float, nominal wheel base, distance per encoder tick [m]
+    left_scale, right_scale, base_scale : float, true over nominal wheel travel, wheel base [1]
+    slip : float, standard deviation of the wheel slip (true minus encoder distance) per root of the
+        distance [m/√m]
+    radius : float, radius of the robot [m]
+    phase : float, initial fraction of a tick. Use 0.5 if commands correspond to whole ticks: near 0
+        the number of ticks depends on the processor's rounding [1]
     """
 
     base: float = 0.3
@@ -38,18 +35,15 @@ class DifferentialDrive:
     def __post_init__(self):
         lengths = (self.base, self.tick, self.left_scale, self.right_scale, self.base_scale)
         if not min(lengths) > 0:
-            raise ValueError("base, tick and the scales of a robot are above zero")
+            raise ValueError("base, tick and the scales of a robot must be positive")
         if not self.slip >= 0:
-            raise ValueError(f"slip is a standard deviation, not negative: {self.slip}")
+            raise ValueError(f"slip, a standard deviation, must not be negative: {self.slip}")
         if not 0 <= self.phase < 1:
-            raise ValueError(f"phase is a share of a tick, 0 to below 1, not {self.phase}")
+            raise ValueError(f"phase must be at least 0 and less than 1 tick, not {self.phase}")
 
     @property
     def model(self):
-        """Odometry noise parameters for an estimator, a RobotModel.
-
-        Slip as it is; the constant errors of the scales as standard deviations.
-        """
+        """RobotModel with the same slip, and with systematic errors as standard deviations."""
         mean = (self.left_scale + self.right_scale) / 2 - 1
         difference = self.right_scale - self.left_scale
         return RobotModel(
@@ -63,20 +57,20 @@ class DifferentialDrive:
 
 
 def arc(left, right, base):
-    """Odometry increment of a differential drive (forward kinematics): a circular arc, exact.
+    """Motion model of a differential drive (forward kinematics): the odometry increment.
 
-    Equations (01.2), (12.2) and (12.4).
-
-    d = (l+r)/2,  Δθ = (r−l)/base,  chord d·sin(Δθ/2)/(Δθ/2) at bearing Δθ/2
+    The path is an exact circular arc about the instantaneous centre of rotation.
+    Equations (02.14), (02.15), (12.2) and (12.4): d = (l+r)/2, Δθ = (r−l)/base, chord
+    d·sin(Δθ/2)/(Δθ/2) at bearing Δθ/2.
 
     Parameters
     ----------
-    left, right : float, ways of the wheels [m]
-    base : float, distance of the wheels [m]
+    left, right : float, distances travelled by the wheels [m]
+    base : float, wheel base [m]
 
     Returns
     -------
-    (3,) pose in the frame of the pose before [m, m, rad]
+    (3,) [m, m, rad]
     """
     turn = (right - left) / base
     chord = (left + right) / 2 * np.sinc(turn / 2 / np.pi)
@@ -84,32 +78,25 @@ def arc(left, right, base):
 
 
 class Simulator:
-    """Simulates a robot: ground truth and odometry (dead reckoning) side by side.
+    """Simulator of a differential-drive robot: ground truth (``pose``) and encoder odometry.
 
     Parameters
     ----------
     robot : DifferentialDrive
     rng : numpy.random.Generator
-    pose : (3,) true start [m, m, rad]
+    pose : (3,) true start pose [m, m, rad]
     """
 
     def __init__(self, robot, rng, pose=(0.0, 0.0, 0.0)):
         self.robot, self.rng = robot, rng
         self.pose = np.array(pose, dtype=float)
-        # left, right, since the tick before the start, as believed [m]
+        # left and right encoder distance since the tick before the start [m]
         self._rolled = np.full(2, robot.phase * robot.tick)
 
     def step(self, v, omega, seconds):
-        """Simulate a command for a while: move the true pose, measure the odometry increment.
+        """Drive at v, omega [m/s, rad/s] for a time [s]; return the odometry increment (3,).
 
-        Parameters
-        ----------
-        v, omega : float, commanded speeds [m/s, rad/s]
-        seconds : float [s]
-
-        Returns
-        -------
-        (3,) odometry increment: the motion by the encoders, in the frame of the pose before
+        The wheel slip changes the true pose, but not the encoder ticks.
         """
         robot = self.robot
         roll = (v + np.array([-1, 1]) * omega * robot.base / 2) * seconds
@@ -117,30 +104,28 @@ class Simulator:
         travel = roll * [robot.left_scale, robot.right_scale] + slip
         self.pose = compose(self.pose, arc(*travel, robot.base * robot.base_scale))
 
-        # whole ticks are counted; the rest of a tick is not lost but counted later
+        # quantisation: whole ticks are counted, the fraction is carried over to the next step
         ticks = np.floor((self._rolled + roll) / robot.tick) - np.floor(self._rolled / robot.tick)
         self._rolled += roll
         return arc(*(ticks * robot.tick), robot.base)
 
 
-def follow(simulator, waypoints, v=0.4, omega=0.6, period=0.5):
-    """Waypoint controller: turn to the next waypoint, drive to it, a command per period.
-
-    It is fed the true pose, so the robot stays on its path whatever its odometry says.
+def follow_waypoints(simulator, waypoints, v=0.4, omega=0.6, period=0.5):
+    """Follow waypoints with a controller that uses the true pose (waypoint following).
 
     Parameters
     ----------
     simulator : Simulator
     waypoints : (n, 2) [m]
-    v, omega : float, top speeds [m/s, rad/s]
-    period : float [s]
+    v, omega : float, maximum speed and turn rate [m/s, rad/s]
+    period : float, duration of a command [s]
 
     Yields
     ------
-    (2,) command v, omega [m/s, rad/s] and (3,) odometry, after each step
+    (2,) command v, omega and (3,) odometry increment [m, m, rad]
     """
     for goal in np.asarray(waypoints, dtype=float):
-        for _ in range(10_000):  # slip beyond reason would never arrive
+        for _ in range(10_000):  # with excessive slip the robot never arrives
             ahead = between(simulator.pose, np.append(goal, 0.0))
             distance, bearing = np.hypot(ahead[0], ahead[1]), np.arctan2(ahead[1], ahead[0])
             if distance < 0.05:

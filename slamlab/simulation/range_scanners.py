@@ -1,37 +1,32 @@
-"""Simulated range scanners: lidar (laser scanner), infrared, ultrasonic; noise and dropouts."""
+"""Sensor models of range scanners (lidar, infrared, ultrasonic) with range noise and dropouts."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from slamlab.models.parameters import SensorModel
 from slamlab.readings import Scan
 
-RAY_STEP = np.radians(0.5)  # between rays of a wide beam [rad]: off by 1e-5 of the range at most
+RAY_STEP = np.radians(0.5)  # between rays of a wide beam [rad]: error below 1e-5 of the range
 
 
 @dataclass(frozen=True)
 class Scanner:
-    """A rotating range sensor in the robot's centre, looking along its heading; noise parameters.
-
-    A beam flies at its nominal angle plus noise and is reported at the nominal angle; the range
-    gets noise that grows with it. A wide beam returns the nearest surface in its cone. A whole
-    turn is taken from one pose.
+    """Rotating range sensor at the robot's centre; ``scan`` measures a revolution from one pose.
 
     Parameters
     ----------
-    beams : int, beams a scan
-    range_min, range_max : float [m]; a reading outside is empty
-    field_of_view : float, field of view, centred on the heading [rad]
-    range_error : float, standard deviation as a share of the range [1]
-    range_sigma : float, standard deviation at range zero [m]
-    range_curvature : float, standard deviation per range squared, of sensors whose signal falls off
-        as 1/r [1/m]
+    beams : int
+    range_min, range_max : float, limits of valid ranges [m]
+    field_of_view : float, centred on the heading [rad]
+    range_error, range_sigma, range_curvature : float, range noise: standard deviation proportional
+        to the range, constant, proportional to the squared range [1, m, 1/m]
     bearing_sigma : float, standard deviation of a beam's direction [rad]
-    cone : float, full opening angle of a beam [rad]
-    dropouts : float, share of the beams that return nothing [1]
-    max_incidence : float, off square on, up to which a surface echoes in a wide beam; smooth ones
-        mirror sound away beyond some 30°, so that the echo is lost [rad]
+    cone : float, opening angle of a beam, which measures the nearest surface [rad]
+    dropouts : float, share of the beams without a return [1]
+    max_incidence : float, angle of incidence beyond which a smooth surface reflects a wide beam
+        away (specular reflection) [rad]
+    rate : float, rotation rate, for a sensor that moves during a revolution [Hz]
     """
 
     beams: int = 400
@@ -45,61 +40,53 @@ class Scanner:
     cone: float = 0.0
     dropouts: float = 0.0
     max_incidence: float = np.pi / 2
+    rate: float = 10.0
 
     def __post_init__(self):
         if self.beams < 1:
-            raise ValueError(f"a scanner needs at least one beam, not {self.beams}")
+            raise ValueError(f"a scanner must have at least one beam, not {self.beams}")
         if not 0 < self.field_of_view <= 2 * np.pi:
-            raise ValueError(f"field_of_view is in radians, above 0 to 2π: {self.field_of_view}")
-        if not 0 <= self.range_min < self.range_max:
             raise ValueError(
-                f"range_min < range_max, not from {self.range_min} to {self.range_max} m"
+                f"field_of_view must be in radians, above 0 and up to 2π, not {self.field_of_view}"
             )
+        if not 0 <= self.range_min < self.range_max:
+            limits = f"{self.range_min} and {self.range_max} m"
+            raise ValueError(f"range_min must be less than range_max; the limits are {limits}")
         if not 0 <= self.dropouts <= 1:
-            raise ValueError(f"dropouts is a share, 0 to 1: {self.dropouts}")
+            raise ValueError(f"dropouts must be a share from 0 to 1, not {self.dropouts}")
         if not 0 <= self.cone < np.pi:
-            raise ValueError(f"cone is an angle in radians, 0 to below π: {self.cone}")
+            raise ValueError(f"cone must be in radians, at least 0 and below π, not {self.cone}")
         if not 0 < self.max_incidence <= np.pi / 2:
-            raise ValueError(f"max_incidence is in radians, above 0 to π/2: {self.max_incidence}")
+            raise ValueError(
+                f"max_incidence must be in radians, above 0 and up to π/2, not {self.max_incidence}"
+            )
         sigmas = self.range_error, self.range_sigma, self.range_curvature, self.bearing_sigma
         if min(sigmas) < 0:
-            raise ValueError("a standard deviation is not negative")
+            raise ValueError("a standard deviation must not be negative")
 
     @property
     def angles(self):
-        """(beams,) nominal beam angles, counter-clockwise from the heading, increasing [rad]."""
+        """Nominal beam angles (beams,) from the heading, increasing counter-clockwise [rad]."""
         half = self.field_of_view / 2
-        whole_turn = self.field_of_view == 2 * np.pi  # its last beam would repeat its first
-        return np.linspace(-half, half, self.beams, endpoint=not whole_turn)
+        full_circle = self.field_of_view == 2 * np.pi  # the last beam must not repeat the first
+        return np.linspace(-half, half, self.beams, endpoint=not full_circle)
 
     @property
     def model(self):
-        """Range sensor parameters for an estimator, a SensorModel."""
         return SensorModel(
             range_min=self.range_min,
             range_max=self.range_max,
             field_of_view=self.field_of_view,
             range_error=self.range_error,
             range_sigma=self.range_sigma,
-            # anywhere in the cone, all places alike
+            # uniform distribution in the cone
             bearing_sigma=float(np.hypot(self.bearing_sigma, self.cone / np.sqrt(12))),
             range_curvature=self.range_curvature,
             half_cone=self.cone / 2,
         )
 
     def scan(self, world, pose, rng):
-        """Simulate a scan: one revolution of the scanner in a world, with noise and dropouts.
-
-        Parameters
-        ----------
-        world : World
-        pose : (3,) [m, m, rad]
-        rng : numpy.random.Generator; the same number of draws whatever is seen
-
-        Returns
-        -------
-        Scan, in the robot's frame; NaN where nothing came back
-        """
+        """Scan a World from a pose (3,), with a constant number of random draws."""
         angles = self.angles
         directions = pose[2] + angles + self.bearing_sigma * rng.standard_normal(self.beams)
         noise = rng.standard_normal(self.beams)
@@ -114,7 +101,6 @@ class Scanner:
         return Scan(angles, ranges, range_max=self.range_max, range_min=self.range_min)
 
     def _nearest(self, world, position, directions):
-        """The nearest surface in each beam's cone."""
         if self.cone == 0:
             return world.cast(position, directions)
         rays = int(np.ceil(self.cone / RAY_STEP)) + 1
@@ -127,40 +113,46 @@ class Scanner:
 
 
 def _incidence(ranges, step):
-    """How far off square on each ray of a fan meets a surface: tan ι = |∂r/∂β| / r [rad]."""
-    with np.errstate(invalid="ignore"):  # from nothing to nothing
-        slopes = np.abs(np.diff(ranges, axis=1)) / step
-        # the flatter side counts: an edge is no slope
-        flatter = np.fmin(
-            np.pad(slopes, ((0, 0), (1, 0)), constant_values=np.inf),
-            np.pad(slopes, ((0, 0), (0, 1)), constant_values=np.inf),
+    """Compute the angle of incidence ι [rad] of each ray of a fan: tan ι = |∂r/∂β| / r."""
+    with np.errstate(invalid="ignore"):  # between two beams without a return
+        derivatives = np.abs(np.diff(ranges, axis=1)) / step
+        # the smaller derivative of both sides: the larger one may be an edge
+        smaller = np.fmin(
+            np.pad(derivatives, ((0, 0), (1, 0)), constant_values=np.inf),
+            np.pad(derivatives, ((0, 0), (0, 1)), constant_values=np.inf),
         )
-        return np.arctan(flatter / ranges)
+        return np.arctan(smaller / ranges)
 
 
+# An A2 with 400 beams per revolution. Noise and dropouts are fitted to three recordings at rest (49
+# revolutions, 2 to 13 m, angles of incidence up to 50°): σ² = (0.11 % r)² + (0.54 mm/m² r²)² +
+# (r tan ι 0.11°)². Smolec's thesis states 0.75 % and simulates 1 %. 0.2 to 1 % of the beams on a
+# surface are dropouts. Gross errors at edges and repeated (systematic) errors are not modelled.
 RPLIDAR_A2 = Scanner(
-    range_error=0.001,
-    range_curvature=0.00054,
+    range_error=0.001, range_curvature=0.00054, bearing_sigma=np.radians(0.1), dropouts=0.005
+)
+# An A1M8 by its data sheet: 8000 samples/s, 5.5 revolutions/s, 0.15 to 12 m, 1 % of the range.
+RPLIDAR_A1 = Scanner(
+    beams=1455,
+    range_min=0.15,
+    bearing_sigma=np.radians(0.1),
+    dropouts=0.01,
+    rate=5.5,
+)
+# A C1 (time of flight) by its data sheet: 5000 samples/s, 10 revolutions/s, 0.05 to 12 m,
+# ±30 mm = 2 σ.
+RPLIDAR_C1 = Scanner(
+    beams=500,
+    range_min=0.05,
+    range_error=0.0,
+    range_sigma=0.015,
     bearing_sigma=np.radians(0.1),
     dropouts=0.005,
 )
-"""An RPLIDAR A2: 400 beams a turn (0.9° apart), 0.2 to 12 m by its data sheet.
-
-Noise and dropouts are fitted to three recordings of an A2 standing still, 49 turns (lesson 02):
-
-- Noise: what a reading differs by from the line between its neighbours in the turn before, at 2 to
-  13 m, up to 50° off square on. Told by the median in bins of range and of incidence ι, it is
-  σ² = (0.11 % r)² + (0.54 mm/m² r²)² + (r tan ι 0.11°)², the 95 % intervals being 0.09 to 0.13 %,
-  0.50 to 0.58 mm/m², 0.09 to 0.12°. That is 0.16 % of a range of 2.4 m and 0.63 % of 11.5 m: an A2
-  triangulates. Its data sheet allows 0.75 % throughout, Smolec simulates 1 %.
-- Dropouts: 2.8 % of all readings are empty, most of them at edges and into the open, turn after
-  turn. Lost are 0.99 % where the turn before saw a surface (people are in it), 0.23 % where the
-  turn after saw it, too.
-
-Not in it: gross errors at edges, errors that repeat from turn to turn, more dropouts far off. Nor
-is the number of beams as steady: it fell from 539 to 356 (0.7° to 1.0°) as the motor spun up.
-"""
-
+# with all samples of a revolution: an A2 measures 8000 per second in its boost mode
+RPLIDARS = {"A1": RPLIDAR_A1, "A2": replace(RPLIDAR_A2, beams=800), "C1": RPLIDAR_C1}
+# The MAK thesis' infrared sensor on a servo, beams 2° apart; ranges over 0.28 m are invalid.
+# Its voltage is about 0.12 V·m / r: a noise of 15 mV is 1 mm at 0.1 m, and 11 mm at 0.3 m.
 GP2D120 = Scanner(
     beams=90,
     range_min=0.04,
@@ -169,12 +161,7 @@ GP2D120 = Scanner(
     range_error=0.0,
     range_curvature=0.125,
 )
-"""The MAK thesis' Sharp GP2D120 on a servo: 90 infrared readings, 2° apart, 0.04 to 0.30 m.
-
-Its voltage falls as 1/r, about 0.12 V·m, so 15 mV of noise are 1 mm at 0.1 m and 11 mm at 0.3 m.
-As in the thesis a reading over 0.28 m is none (chapter 8).
-"""
-
+# The EKF note's sensor on a servo, beams 5° apart; parameters of a common 40 kHz sensor.
 ULTRASONIC = Scanner(
     beams=37,
     range_min=0.02,
@@ -184,7 +171,3 @@ ULTRASONIC = Scanner(
     range_sigma=0.003,
     cone=np.radians(25),
 )
-"""The EKF note's ultrasonic scanner on a servo: 37 readings 5° apart, each from a cone of 25°.
-
-The note gives no figures; these are those of a common 40 kHz ranger.
-"""

@@ -1,8 +1,7 @@
-"""Wall-following controller (MAK thesis 7.3): keep to the wall on the left, a scan at every stop.
+"""Wall following with a controller (MAK 7.3) that keeps a wall on the left and scans at stops.
 
-The listing, mended: it never sets a forward speed nor ``target``, the place a drive starts from, so
-its robot would stand still for ever; its brackets do not pair; and its comment "more than 4 cm"
-stands over a loop that drives 4 cm at most.
+This version corrects the published listing, which sets neither a forward speed nor ``target``, and
+contains unmatched brackets.
 """
 
 from dataclasses import dataclass
@@ -11,21 +10,20 @@ import numpy as np
 
 from slamlab.geometry import compose
 
-MARGIN = 1e-6  # of a step, which is a whole number of polls: rounding must not add another [m]
+MARGIN = 1e-6  # of a step: rounding must not add another poll [m]
 
 
 @dataclass(frozen=True)
 class WallFollower:
-    """Rules of wall following: how the robot goes along a wall on its left.
+    """Controller that keeps a wall on the left of the robot.
 
     Parameters
     ----------
-    far : float, a longer reading of the wall ahead on the left: turn left [m]
-    near : float, a shorter one: turn right [m]
-    step : float, farthest drive from one scan to the next [m]
-    look : float, where the scanner points while driving, from the heading [rad]
-    v, omega : float, speeds [m/s, rad/s]
-    period : float, from one reading of the scanner to the next [s]
+    far, near : float, ranges above which the robot turns left, and below which it turns right [m]
+    step : float, largest distance between two scans [m]
+    look : float, direction of the scanner while driving, relative to the heading [rad]
+    v, omega : float, speed and turn rate [m/s, rad/s]
+    period : float, time between two measurements of the scanner [s]
     """
 
     far: float = 0.25
@@ -38,26 +36,15 @@ class WallFollower:
 
     def __post_init__(self):
         if not 0 < self.near < self.far:
-            raise ValueError(f"near and far are 0 < near < far, not {self.near} and {self.far} m")
+            raise ValueError(f"near must be above 0 and below far ({self.near} and {self.far} m)")
         if not min(self.step, self.v, self.omega, self.period) > 0:
-            raise ValueError("step, v, omega and period are above zero")
+            raise ValueError("step, v, omega and period must be positive")
 
     def advance(self, simulator, read):
-        """Control from one scan to the next: turn until the wall is in reach, then drive a little.
+        """Move a Simulator to its next stop: turn until a wall is in range, then drive one step.
 
-        Parameters
-        ----------
-        simulator : Simulator, moved
-        read : callable() -> float, the scanner's range in direction ``look``; inf without an echo
-
-        Returns
-        -------
-        odometry : (3,) increment by the encoders, in the frame of the pose before
-        seconds : float, how long it took [s]
-
-        Raises
-        ------
-        ValueError : the robot turned twice round and found no wall to go along
+        ``read()`` returns the range in direction ``look`` [m]. Returns the odometry increment (3,)
+        and the duration [s]. Raises ValueError if two rotations find no wall.
         """
         moved, polls = np.zeros(3), 0
 
@@ -65,13 +52,15 @@ class WallFollower:
             nonlocal moved, polls
             moved, polls = compose(moved, simulator.step(v, omega, self.period)), polls + 1
             if polls * self.omega * self.period > 4 * np.pi:
-                raise ValueError(f"no wall between {self.near} and {self.far} m on any side")
+                raise ValueError(
+                    f"no wall was found between {self.near} and {self.far} m in any direction"
+                )
 
         while read() > self.far:
             go(0, self.omega)
         while read() < self.near:
             go(0, -self.omega)
-        target = moved[:2]  # the listing's name for where the drive starts
+        target = moved[:2]  # start of the step, named as in the listing
         while np.hypot(*(moved[:2] - target)) < self.step - MARGIN and read() > self.near:
             go(self.v, 0)
         return moved, polls * self.period

@@ -1,12 +1,21 @@
-"""Sources of readings (sensor data): simulations, log files, ROS bags, recordings, live devices.
+"""Sources of readings (sensor data): simulations, logs, ROS bags, recordings, live devices.
 
 Read in this order:
 
-- ``base``: Source, what all offer; ``opener``: open, by one string
-- ``simulated_robot``, ``landmark_runs``, ``arena_runs``: simulations, with their truth
-- ``log_file``: lines; ``reading_log``: the project's own format; logs of others: ``carmen``,
-  ``breezyslam``, ``rplidar_grabber``, ``ros_bag`` (with ``ros_messages``, ``ros_frames``)
-- ``lidar_on_robot``: ``live_devices``, ``emulated_devices``, ``raw_recordings`` of them
+- ``base``: Source; ``disk_buffer``: parsed readings in memory or on disk
+- ``opener``: open; ``unsupported_formats``; ``public_datasets`` and their
+  ``downloading``; ``calibration_overrides``: mounting, field of view and units set by the user
+- ``simulated_robot``, ``landmark_runs``, ``arena_runs``, ``handheld_lidar``: simulations with
+  ground truth
+- ``reading_log``: the library's own format; other formats: ``carmen``, ``breezyslam``,
+  ``rplidar_text``, ``ros_bag``
+- ``gtsam_text``: odometry and landmark measurements of a graph
+- for CARMEN logs: ``carmen_messages``, ``carmen_lasers``, ``carmen_geometry``,
+  ``carmen_beam_angles``; for RPLIDAR text: ``rplidar_text_formats``
+- for ROS bags: ``ros_bag_files``, ``ros_bag_reader``, ``ros_decoding``, ``ros_topics``;
+  ``ros_messages``, ``ros_scans``; ``ros_time_synchronisation``, ``ros_pose_interpolation``,
+  ``ros_tf_tree``, ``ros_odometry``; ``ros_beam_order``
+- ``lidar_on_robot``: deskewed scans for ``live_devices``, ``emulated_devices``, ``raw_recordings``
 """
 
 from slamlab._lazy import exports
@@ -14,9 +23,10 @@ from slamlab._lazy import exports
 __all__ = exports(
     __name__,
     {
+        ".calibration_overrides": ["CalibrationOverrides", "override_calibration"],
         ".base": ["Source", "SourceError"],
         ".opener": ["open"],
-        "slamlab.files.published_recordings": ["recording"],
+        ".public_datasets": ["recording"],
         ".reading_log": ["write"],
         ".simulated_robot": ["simulation"],
     },

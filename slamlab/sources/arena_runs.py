@@ -1,55 +1,36 @@
-"""Arena data sets: the MAK thesis' experiment (ch. 6–8) simulated, a robot with infrared scanner.
-
-It follows the wall on its left through an arena of cardboard boxes, three laps round, and stops
-every few centimetres to scan.
-"""
+"""Simulated arena data sets: experiment of the MAK thesis (ch. 6–8) with an infrared scanner."""
 
 from copy import copy
 from dataclasses import replace
 
 import numpy as np
 
-from slamlab import worlds
 from slamlab.geometry import compose, wrap
 from slamlab.readings import Reading, Trajectory
+from slamlab.simulation import worlds
 from slamlab.simulation.differential_drive import DifferentialDrive, Simulator
 from slamlab.simulation.range_scanners import GP2D120
 from slamlab.simulation.wall_follower import WallFollower
-from slamlab.sources.base import Source
+from slamlab.sources.base import SimulatedRun
 
+# 12 × 12 cm, a toy's chassis with the encoders of a computer mouse. The thesis states only that its
+# odometry drifts; this slip causes about 10 cm and 20° after three laps
 ROBOT = DifferentialDrive(base=0.1, tick=0.0002, slip=0.003, radius=0.06, phase=0.5)
-"""Robot of 12 × 12 cm (differential drive): a toy's chassis with the encoders of a computer mouse.
 
-The thesis gives no figures of its odometry but that it strays farther and farther; this slip is
-3 mm after a metre on each wheel, so some 10 cm and 20° after three laps.
-"""
-
-LAPS = 3  # rounds of the robot through the arena [1]
+LAPS = 3  # of the robot around the inner box [1]
+# six data sets: seed, and whether the cable was snagged (odometry outlier)
 SETS = tuple((seed, seed == 6) for seed in range(1, 7))
-"""Six data sets: seed, and whether the cable was snagged (odometry outlier): :func:`data_set`."""
 
-BOX_CENTRE = 0.3, -0.32  # of the box that the robot goes round [m]
-SCAN_SECONDS = 4.5  # 90 readings, the servo at rest for each
-SNAG_DISTANCE = 0.05, 0.10  # what odometry gains while the cable holds the robot [m]
-SNAG_TURN = np.radians(20), np.radians(40)  # to either side [rad]
+BOX_CENTRE = 0.3, -0.32  # of the inner box [m]
+SCAN_SECONDS = 4.5  # 90 beams, the servo at rest for each
+SNAG_DISTANCE = 0.05, 0.10  # odometry error while the cable holds the robot [m]
+SNAG_TURN = np.radians(20), np.radians(40)  # in both directions [rad]
 
 
-class ArenaRun(Source):
-    """Simulated run of a wall-following robot through the arena, its readings filtered afterwards.
+class ArenaRun(SimulatedRun):
+    """Simulated run of a robot that follows the wall on its left and stops for each scan.
 
-    Reading i always has the same noise, so every iteration yields the same readings.
-
-    Parameters
-    ----------
-    rng : numpy.random.Generator; one number is drawn, all noise grows from it
-    laps : int
-    robot : DifferentialDrive
-
-    ``world`` is the arena, for evaluation only; ``snag`` the reading with the gross error or None.
-
-    Raises
-    ------
-    ValueError : less than a lap
+    ``snag`` is the index of the reading with the odometry outlier, or None.
     """
 
     name = "sim:arena"
@@ -58,32 +39,19 @@ class ArenaRun(Source):
     follower = WallFollower()
 
     def __init__(self, rng, laps=LAPS, robot=ROBOT):
-        super().__init__()
         if laps < 1:
-            raise ValueError(f"laps is at least 1, not {laps}")
+            raise ValueError(f"laps must be at least 1, not {laps}")
+        super().__init__(rng)
         self.robot, self.sensor = robot.model, self.scanner.model
-        self._seed = int(rng.integers(2**63))
-        self.truth, self._odometry = self._simulate_drive(laps, robot)
+        self.truth, self._odometry = self._simulate_run(laps, robot)
         self.snag = None
 
-    def __len__(self):
-        return len(self.truth)
-
-    def __iter__(self):
-        for i, (time, pose) in enumerate(zip(self.truth.times, self.truth.poses, strict=True)):
-            yield Reading(
-                time, self._odometry[i], self.scanner.scan(self.world, pose, self._rng(i))
-            )
+    def _reading(self, i):
+        scan = self.scanner.scan(self.world, self.truth.poses[i], self._rng(i))
+        return Reading(self.truth.times[i], self._odometry[i], scan)
 
     def snagged(self):
-        """Copy of the run with one odometry outlier: in its middle third the cable held the robot.
-
-        The wheels turned on: one gross error of the odometry, and nothing else differs.
-
-        Returns
-        -------
-        ArenaRun
-        """
+        """Return a copy with one odometry outlier in the middle third, where the cable snags."""
         rng, n, run = self._rng(-2), len(self), copy(self)
         run.name, run.snag = "sim:arena-snagged", int(rng.integers(n // 3, 2 * n // 3))
         turn = rng.choice([-1, 1]) * rng.uniform(*SNAG_TURN)
@@ -92,8 +60,7 @@ class ArenaRun(Source):
         run._odometry[run.snag] = compose(self._odometry[run.snag], gained)
         return run
 
-    def _simulate_drive(self, laps, robot):
-        """Trajectory of the stops, and the odometry that led to each."""
+    def _simulate_run(self, laps, robot):
         wheel_rng, beam_rng = self._rng(-1).spawn(2)
         simulator = Simulator(robot, wheel_rng)
         beam = replace(self.scanner, beams=1, field_of_view=1e-9)  # the servo at rest
@@ -112,22 +79,12 @@ class ArenaRun(Source):
         return Trajectory(np.array(times), np.array(poses)), odometry
 
     def _rng(self, i):
-        """Noise of reading i; of the wheels at −1, of the cable at −2."""
-        return np.random.default_rng([self._seed, 2 + i])
+        """Return the noise generator of reading i, of the wheels (i = −1) or the cable (i = −2)."""
+        return super()._rng(2 + i)
 
 
 def data_set(seed, snagged=False):
-    """Arena data set of a seed, such as one of ``SETS``.
-
-    Parameters
-    ----------
-    seed : int
-    snagged : bool
-
-    Returns
-    -------
-    ArenaRun
-    """
+    """Return an ArenaRun with a seed, such as the seeds of ``SETS``."""
     run = ArenaRun(np.random.default_rng(seed))
     return run.snagged() if snagged else run
 

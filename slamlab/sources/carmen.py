@@ -1,160 +1,200 @@
-"""CARMEN log files: the format of the classic public data sets (Intel Lab), one message a line.
+"""CARMEN log files, the format of classic public data sets (Intel Lab), with one message per line.
 
-A scan is ``FLASER n r_1 … r_n x y θ odom_x odom_y odom_θ stamp host logger_stamp``: ranges in
-metres from right to left, the laser's pose (here ignored: a corrected log holds somebody's result
-there), the odometry's pose, the time of the scan. Other messages and comments are passed over.
+If a log has several lasers, the laser with the most scans is used. The laser's odometry comes from
+its own messages or, if they contain no poses, from separate ODOM messages.
 """
+
+from array import array
+from itertools import islice
 
 import numpy as np
 
-from slamlab.files.errors import SourceError
-from slamlab.geometry import between
+from slamlab.files import SourceError
+from slamlab.geometry import between, compose
 from slamlab.models.parameters import SensorModel
-from slamlab.readings import Reading, Scan
-from slamlab.sources.log_file import LogFile
+from slamlab.readings import Reading, Scan, Trajectory
+from slamlab.sources import carmen_lasers
+from slamlab.sources.base import LogFile
+from slamlab.sources.carmen_beam_angles import runs_clockwise
+from slamlab.sources.carmen_geometry import LaserGeometry
+from slamlab.sources.carmen_messages import LASERS, OTHERS, POSES, parse_pose, parse_scan
 
-RANGE_MAX = 80.0  # [m]; a SICK LMS reports 81.83 or 81.91 m where nothing came back
-MAX_ODOMETRY = 1e7  # no robot's odometry is beyond this [m]
-SATURATION_BAND = 0.995  # share of the greatest range from which ranges are no returns [1]
-MIN_SATURATED, SATURATION_RATIO = 20, 5.0  # at least so many, and so many times those below [1]
-SATURATION_DISTANCE = 3.0  # times the median of the others, or it is a wall [1]
-ANGLE_INCREMENTS = {180: 1.0, 181: 1.0, 360: 0.5, 361: 0.5, 400: 0.25, 401: 0.25}
-"""Angle increment from beam to beam, by number of beams [degree]."""
+KNOWN = {*LASERS, *POSES, b"PARAM", b"SYNC"}
+SWITCHES = {b"on": 1.0, b"yes": 1.0, b"true": 1.0}  # values of PARAM lines that are words
+MAX_PAIRS = 500  # scans by which the direction of rotation is determined
 
 
 class CarmenLog(LogFile):
-    """CARMEN log as a source of scans and odometry increments, plain or gzip."""
+    kind = "a CARMEN log (FLASER, ROBOTLASER1, RAWLASER1 …)"
 
-    def _parse(self, lines):
-        self._range_max = RANGE_MAX
-        self._rows = []
-        for line, complete in lines:
-            self._parse_line(line, complete)
-        if not self._rows:
-            lost = f" ({self.skipped} were unreadable)" if self.skipped else ""
-            raise SourceError(
-                f"{self.name} holds no readable FLASER line{lost}: is it a CARMEN log?"
+    @staticmethod
+    def recognises(head):
+        first = (line[:40].split(None, 1) for line in head.splitlines())
+        return head.startswith(b"# CARMEN") or any(words and words[0] in KNOWN for words in first)
+
+    def _parse(self, file):
+        self._params, lasers = {}, {}
+        poses = {name: array("d") for name in POSES}  # rows: timestamp, logging time, x, y, θ
+        for number, line, complete in file.lines():
+            words = line.split()
+            name = words[0] if words else b"#"
+            try:
+                if name in LASERS:
+                    message = self._checked(parse_scan(words, complete))
+                    if name not in lasers:
+                        lasers[name] = carmen_lasers.LaserMessages()
+                    lasers[name].append(message)
+                elif name in POSES:
+                    poses[name].extend(parse_pose(words))
+                elif name == b"PARAM":
+                    self._add_param(*words[1:3])
+                elif name not in OTHERS and not name.startswith(b"#"):
+                    self.damage["lines without a CARMEN message"] += 1
+            except ValueError as kind:
+                if name in LASERS:
+                    self._count_lost(str(kind), number)
+                else:
+                    self.damage[str(kind)] += 1
+        if not lasers:
+            raise self._nothing_usable(
+                "readable scan of a laser (FLASER, ROBOTLASER1, RAWLASER1 …)"
             )
-        backwards = np.diff([stamp for stamp, _, _ in self._rows]) < 0
-        if backwards.any():
-            self.damage["stamps that run backwards"] += int(backwards.sum())
-        self._range_max = saturation([row[2] for row in self._rows], self._range_max)
-        self.sensor = SensorModel(
-            range_max=self._range_max, field_of_view=np.pi, range_sigma=0.01, range_error=0.0
-        )
+        odom, *truth = (np.array(poses[name]).reshape(-1, 5) for name in POSES)
+        self._choose(lasers, odom)
+        self._merge(odom)
+        self._find_geometry()
+        self._find_truth(np.concatenate(truth))
 
     def __len__(self):
-        return len(self._rows)
+        return int(np.count_nonzero(self._used))
 
     def __iter__(self):
-        before = None
-        for stamp, odometry, ranges in self._rows:
-            yield Reading(
-                time=stamp,
-                odometry=np.zeros(3) if before is None else between(before, odometry),
-                scan=Scan(beam_angles(len(ranges)), ranges, range_max=self._range_max),
-            )
-            before = odometry
+        before, sensor, mounted = None, self.sensor, self._geometry.mount.any()
+        for row, message in self._messages():
+            odometry = None
+            if self.has_odometry:
+                pose = self._robot_pose(row, message)
+                if mounted:
+                    pose = compose(pose, self._geometry.mount)
+                odometry = np.zeros(3) if before is None else between(before, pose)
+                before = pose
+            ranges = message.ranges * self._geometry.unit
+            scan = Scan(self._geometry.angles(message), ranges, sensor.range_max)
+            yield Reading(float(self._times[row]), odometry, scan)
 
-    def _parse_line(self, line, complete):
-        """Parse a line: keep a scan, note a setting, count damage, ignore everything else."""
-        words = line.split()
-        if words[:2] == [b"PARAM", b"robot_front_laser_max"] and len(words) > 2:
-            limit = float_or_none(words[2])
-            if limit is not None and 0 < limit < np.inf:
-                self._range_max = limit
-        if words[:1] != [b"FLASER"]:
-            return
+    def _messages(self):
+        """Yield the index and ScanMessage of each used scan."""
+        messages = [iter(laser.spool) for laser in self._lasers]
+        for row, (which, used) in enumerate(zip(self._order, self._used, strict=True)):
+            message = next(messages[which])
+            if used:
+                yield row, message
+
+    def _robot_pose(self, row, message):
+        return getattr(message, self._whose) if self._own_poses else self._poses[row]
+
+    def _add_param(self, name=b"", value=b""):
         try:
-            row = parse_flaser(words, complete)
-        except ValueError as kind:
-            self.damage[str(kind)] += 1
-            self.skipped += 1
+            self._params[name.decode("utf-8", "replace")] = SWITCHES.get(value) or float(value)
+        except ValueError:
+            return  # only numbers describe the geometry
+
+    def _checked(self, message):
+        ranges = message.ranges
+        if len(ranges) and not (ranges.min() >= 0 and ranges.max() < np.inf):
+            unusable = ~(ranges >= 0) | np.isinf(ranges)
+            self.damage["NaN, infinite or negative ranges"] += int(unusable.sum())
+            ranges[unusable] = np.nan
+        return message
+
+    def _discard(self, rows, kind):
+        """Discard the messages in a mask (n,) and count them as lost."""
+        lost = int(np.count_nonzero(rows & self._used))
+        if lost:
+            self.damage[kind] += lost
+            self.skipped += lost
+            self._used = self._used & ~rows
+        if not self._used.any():
+            raise SourceError(f"{self.name} contains no usable scan: {lost} are {kind}")
+
+    def _choose(self, lasers, odom):
+        """Choose the laser and the source of its odometry."""
+        self._names, self._own_poses = carmen_lasers.choose(lasers, len(odom) > 1)
+        self._lasers = [lasers[name] for name in self._names]
+        self.has_odometry = self._own_poses or len(odom) > 1
+        for name in sorted(set(lasers) - set(self._names)):
+            unused = f"unused scans of {name.decode()}, in addition to {self._names[0].decode()}"
+            self.damage[unused] += len(lasers[name])
+        moved = any(laser.moved["robot"] for laser in self._lasers)
+        one = sum(map(len, self._lasers)) == 1  # its pose may be zero
+        self._whose = "robot" if moved or one else "laser"
+        if self._whose == "laser" and LASERS[self._names[0]].poses:
+            used = "the poses of the laser are used" if self._own_poses else "it is ignored"
+            self.notes.append(f"the odometry in the scan messages is always zero, so {used}")
+
+    def _merge(self, odom):
+        """Merge the laser's messages by time and interpolate separate odometry."""
+        odom = odom[:0] if self._own_poses else odom
+        self._clock = carmen_lasers.choose_clock(self._lasers, odom)
+        self._times, self._order, self._used = carmen_lasers.merge(self._lasers, self._clock)
+        if self.has_odometry and not self._own_poses:
+            rows, times = carmen_lasers.remove_clock_jumps(odom, self._clock, self._times)
+            stamps, poses = carmen_lasers.sort_by_time(rows, self._clock)
+            self._poses = carmen_lasers.pose_at(stamps, poses, times)
+            outside = (times < stamps[0]) | (times > stamps[-1])
+            self._discard(outside, "scans before or after all ODOM messages")
+        backwards = np.diff(self._times[self._used]) < 0
+        if backwards.any():
+            self.damage["timestamps that run backwards"] += int(backwards.sum())
+
+    def _find_geometry(self):
+        """Find the field of view, mounting and maximum range of the log's laser."""
+        first = LASERS[self._names[0]]
+        self._geometry = LaserGeometry(
+            self._params,
+            first.laser,
+            first.laser == 2 or any(LASERS[name].settings for name in self._names),
+            [message for laser in self._lasers for message in laser.sample],
+            self.notes,
+        )
+        if self._own_poses and self._whose == "laser":
+            self._geometry.mount = np.zeros(3)
+        lengths = np.empty(len(self._order), dtype=int)
+        for k, laser in enumerate(self._lasers):
+            lengths[self._order == k] = laser.lengths
+        unspecified = self._used & (lengths >= 0)
+        if unspecified.any():
+            try:
+                usable = self._geometry.lengths(
+                    lengths[unspecified], self._names[0] == b"LASER_READING"
+                )
+            except ValueError as error:
+                raise SourceError(f"{self.name}: {error}. Correct the PARAM lines") from None
+            self._discard(unspecified & ~np.isin(lengths, usable), "scans of another length")
+        rows = list(
+            islice(self._messages(), MAX_PAIRS if self._geometry.declared_upside_down else 1)
+        )
+        angles = self._geometry.angles(rows[0][1])
+        if self._geometry.declared_upside_down and self.has_odometry:
+            # CARMEN reverses the ranges of such a laser before logging
+            scans = [(m.ranges, self._robot_pose(row, m)) for row, m in rows]
+            self._geometry.clockwise = runs_clockwise(scans, angles)
+            if self._geometry.clockwise:
+                self.notes.append("the laser is mounted upside down, so the ranges are reversed")
+        view = np.ptp(angles) * len(angles) / max(1, len(angles) - 1)
+        self.sensor = SensorModel(
+            range_max=self._geometry.range_max,
+            field_of_view=float(min(2 * np.pi, view)),
+            range_sigma=0.01,
+            range_error=0.0,
+        )
+
+    def _find_truth(self, truth):
+        if len(truth) < 2:
             return
-        unusable = ~(row[2] >= 0) | np.isinf(row[2])
-        if unusable.any():
-            self.damage["ranges NaN, infinite or negative"] += int(unusable.sum())
-            row[2][unusable] = np.nan
-        self._rows.append(row)
-
-
-def saturation(scans, range_max):
-    """The range a scanner reports where nothing came back, where the log shows one.
-
-    Scanners set otherwise than Intel's report 50, 51.15 or 32.76 m and no setting says so. Taken
-    for walls they go along with the robot. They are told by their number at the end of the range.
-
-    Parameters
-    ----------
-    scans : list of (n,) ranges [m]
-    range_max : float, from which a range is no return in any case [m]
-
-    Returns
-    -------
-    float, range_max or less [m]
-    """
-    ranges = np.concatenate(scans)
-    ranges = ranges[ranges < range_max]
-    if len(ranges) == 0:
-        return range_max
-    top = ranges.max()
-    limit = SATURATION_BAND * top
-    rest = ranges[ranges < limit]
-    if len(rest) == 0 or top < SATURATION_DISTANCE * np.median(rest):
-        return range_max
-    saturated, below = len(ranges) - len(rest), np.count_nonzero(rest >= 0.9 * top)
-    return limit if saturated > max(MIN_SATURATED, SATURATION_RATIO * below) else range_max
-
-
-def parse_flaser(words, complete):
-    """Parse a FLASER message (laser scan): time stamp [s], odometry (3,) and ranges (n,) [m].
-
-    Raises
-    ------
-    ValueError : its text is the kind of damage
-    """
-    count = words[1] if len(words) > 1 else b""
-    if not count.isdigit():
-        raise ValueError("lines without a count of ranges" if complete else "lines cut short")
-    # six numbers of poses and the stamp must follow, host and logger's stamp may
-    surplus = len(words) - 2 - int(count) - 7
-    if not complete and surplus < 1:
-        raise ValueError("lines cut short")
-    if not 0 <= surplus <= 2:
-        raise ValueError("lines whose count of ranges is wrong")
-    numbers = [float_or_none(word) for word in words[2 : len(words) - surplus]]
-    if None in numbers:
-        raise ValueError("lines with a word where a number belongs")
-    values = np.array(numbers, dtype=float)
-    ranges, odometry, stamp = values[: int(count)], values[-4:-1], values[-1]
-    if not np.isfinite(values[-4:]).all() or np.abs(odometry).max() > MAX_ODOMETRY:
-        raise ValueError("lines without a finite odometry and stamp")
-    return float(stamp), odometry, ranges
-
-
-def float_or_none(word):
-    """Number that a word stands for (float), or None."""
-    try:
-        return float(word)
-    except ValueError:
-        return None
-
-
-def beam_angles(count):
-    """Beam angles (bearings) of a scan, as CARMEN takes them from the number of beams.
-
-    The first looks to the right (−90°). 181, 361 and 401 beams are a SICK's 1°, 0.5° and 0.25°; one
-    less is the same without the last beam. A 0.25° scan covers 100°, centred. Other numbers are
-    spread over 180°.
-
-    Parameters
-    ----------
-    count : int
-
-    Returns
-    -------
-    (count,) [rad]
-    """
-    step = ANGLE_INCREMENTS.get(count, 180.0 / max(1, count - 1))
-    first = -50.0 if count in (400, 401) else -90.0
-    return np.radians(first + step * np.arange(count))
+        times, poses = carmen_lasers.sort_by_time(truth, self._clock)
+        known = (self._times >= times[0]) & (self._times <= times[-1]) & self._used
+        at = np.unique(self._times[known])
+        if len(at):
+            true = carmen_lasers.pose_at(times, poses, at)
+            self.truth = Trajectory(at, compose(true, self._geometry.mount))

@@ -1,7 +1,4 @@
-"""Simulated runs among point landmarks, with known data association: a robot drives a loop.
-
-No scan, no walls: the landmarks come with their ids, so that a filter can be tried on its own.
-"""
+"""Simulated runs among point landmarks with known data association, on a circular loop."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -13,7 +10,7 @@ from slamlab.models.observation import h
 from slamlab.models.parameters import RobotModel, SensorModel
 from slamlab.readings import Observations, Reading, Trajectory
 from slamlab.simulation.differential_drive import arc
-from slamlab.sources.base import Source
+from slamlab.sources.base import SimulatedRun
 
 CLEARANCE = 0.5  # least distance of a landmark from the loop [m]
 
@@ -22,22 +19,8 @@ CLEARANCE = 0.5  # least distance of a landmark from the loop [m]
 class Loop:
     """Settings of a simulated run: circular loop, landmarks, odometry and measurement noise.
 
-    Odometry's noise is that of a speed and a turn rate, drawn anew for each step.
-
-    Parameters
-    ----------
-    landmarks : int, how many
-    radius : float, of the loop [m]
-    spread : float, how far off the loop a landmark may lie, on either side [m]
-    v : float, speed [m/s]
-    steps : int, readings after the first
-    period : float, between readings [s]
-    v_sigma : float, standard deviation of the measured speed [m/s]
-    omega_sigma : float, of the measured turn rate [rad/s]
-    range_max : float, farthest landmark seen [m]
-    field_of_view : float, centred on the heading [rad]
-    range_sigma : float [m]
-    bearing_sigma : float [rad]
+    Landmarks are on both sides of the loop, within ``spread`` of it; ``steps`` is the number of
+    readings after the first. The noise of speed and turn rate is independent in each step.
     """
 
     landmarks: int = 20
@@ -56,17 +39,21 @@ class Loop:
     def __post_init__(self):
         above_zero = (self.radius, self.v, self.period, self.range_max)
         if self.landmarks < 1 or self.steps < 1 or not min(above_zero) > 0:
-            raise ValueError("a loop needs landmarks, steps, radius, v, period and range_max")
+            raise ValueError("landmarks, steps, radius, v, period and range_max must be positive")
         if not 0 < self.field_of_view <= 2 * np.pi:
-            raise ValueError(f"field_of_view is in radians, above 0 to 2π: {self.field_of_view}")
+            raise ValueError(
+                f"field_of_view must be above 0 and at most 2π radians, not {self.field_of_view}"
+            )
         if not CLEARANCE <= self.spread < self.radius:
-            raise ValueError(f"spread is from {CLEARANCE} m to below the radius, not {self.spread}")
+            raise ValueError(
+                f"spread must be from {CLEARANCE} m to below the radius, not {self.spread}"
+            )
         if min(self.v_sigma, self.omega_sigma, self.range_sigma, self.bearing_sigma) < 0:
-            raise ValueError("a standard deviation is not negative")
+            raise ValueError("a standard deviation must not be negative")
 
     @property
     def robot(self):
-        """Robot model of the same odometry: at one speed, noise in v and ω is noise per metre."""
+        """RobotModel: at constant speed, the noise of v and ω becomes noise per metre."""
         return RobotModel(
             distance_error=self.v_sigma / self.v,
             turn_error=0.0,
@@ -75,7 +62,6 @@ class Loop:
 
     @property
     def sensor(self):
-        """Sensor model (range–bearing sensor) of what observes the landmarks."""
         return SensorModel(
             range_max=self.range_max,
             field_of_view=self.field_of_view,
@@ -85,51 +71,26 @@ class Loop:
         )
 
 
-class LandmarkRun(Source):
-    """Simulated run of a robot round a loop, counter-clockwise, observing landmarks.
+class LandmarkRun(SimulatedRun):
+    """Simulated counter-clockwise run of a robot on a Loop, with observations of known landmarks.
 
-    It starts at the origin along x; landmarks come with their ids.
-    The robot is steered along the true loop; what errs is what it measures. Reading i always has
-    the same noise, so every iteration yields the same readings.
-
-    Parameters
-    ----------
-    loop : Loop
-    rng : numpy.random.Generator; one number is drawn, landmarks and noise grow from it
-
-    ``landmarks`` (n, 2) are the true ones [m], for evaluation only.
+    The robot follows the loop exactly; only its measurements have errors. ``landmarks`` (n, 2) are
+    the true positions [m].
     """
 
     name = "sim:landmarks"
 
     def __init__(self, loop, rng):
-        super().__init__()
+        super().__init__(rng)
         self.loop, self.robot, self.sensor = loop, loop.robot, loop.sensor
-        self._seed = int(rng.integers(2**63))
         poses = [np.zeros(3)]
         for _ in range(loop.steps):
             poses.append(compose(poses[-1], _arc_motion(loop.v, loop.v / loop.radius, loop.period)))
         self.truth = Trajectory(loop.period * np.arange(len(poses)), np.array(poses))
         self.landmarks = _scatter_landmarks(loop, self._rng(len(poses)))
 
-    def __len__(self):
-        return len(self.truth)
-
-    def __iter__(self):
-        for i in range(len(self)):
-            yield self._reading(i)
-
     def seen(self, pose):
-        """Visible landmarks: those within range and field of view (seen).
-
-        Parameters
-        ----------
-        pose : (3,) [m, m, rad]
-
-        Returns
-        -------
-        (m,) int ids, which are rows of ``landmarks``
-        """
+        """Return the ids (m,) of the landmarks within range and field of view of a pose (3,)."""
         return self._visible(h(pose, self.landmarks))
 
     def _visible(self, z):
@@ -139,40 +100,33 @@ class LandmarkRun(Source):
 
     @cached_property
     def _noise(self):
-        """Of each reading, kept because many estimators take in one run: (n, 2), (n, k, 2) [1]."""
+        """Noise of odometry and observations, cached for several estimators."""
         rngs = [self._rng(i) for i in range(len(self))]
-        of_motion = [rng.standard_normal(2) for rng in rngs]
-        return of_motion, [rng.standard_normal((self.loop.landmarks, 2)) for rng in rngs]
+        odometry = [rng.standard_normal(2) for rng in rngs]
+        return odometry, [rng.standard_normal((self.loop.landmarks, 2)) for rng in rngs]
 
     def _reading(self, i):
-        loop, (of_motion, of_sights) = self.loop, self._noise
-        v, omega = np.array([loop.v, loop.v / loop.radius]) + of_motion[i] * [
-            loop.v_sigma,
-            loop.omega_sigma,
-        ]
+        loop, (odometry_noise, observation_noise) = self.loop, self._noise
+        sigmas = [loop.v_sigma, loop.omega_sigma]
+        v, omega = np.array([loop.v, loop.v / loop.radius]) + odometry_noise[i] * sigmas
         z = h(self.truth.poses[i], self.landmarks)
         ids = self._visible(z)
-        z = z[ids] + of_sights[i][ids] * [loop.range_sigma, loop.bearing_sigma]
+        z = z[ids] + observation_noise[i][ids] * [loop.range_sigma, loop.bearing_sigma]
         z[:, 1] = wrap(z[:, 1])
-        usable = z[:, 0] > 0  # noise may push a near landmark behind the sensor
+        usable = z[:, 0] > 0  # noise can make a small range negative
         return Reading(
             time=self.truth.times[i],
             odometry=_arc_motion(v, omega, loop.period) if i else np.zeros(3),
             observations=Observations(z[usable], ids[usable]),
         )
 
-    def _rng(self, i):
-        return np.random.default_rng([self._seed, i])
-
 
 def _arc_motion(v, omega, seconds):
-    """(3,) motion increment of constant velocities, in the start's frame: an arc [m, m, rad]."""
     d, turn = v * seconds, omega * seconds
     return arc(d - turn / 2, d + turn / 2, 1.0)
 
 
 def _scatter_landmarks(loop, rng):
-    """(n, 2) landmarks inside and outside of the loop, all the way round [m]."""
     n = loop.landmarks
     around = 2 * np.pi * (np.arange(n) + rng.random(n)) / n
     off = rng.uniform(CLEARANCE, loop.spread, n) * rng.choice([-1, 1], n)

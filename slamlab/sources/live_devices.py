@@ -1,38 +1,34 @@
-"""Live devices as a source: readings of a lidar and a robot in real time (online SLAM)."""
+"""Live devices as a source (online SLAM): a lidar, with or without a robot."""
 
 from dataclasses import replace
 
 import numpy as np
 
+from slamlab import devices as drivers
 from slamlab.devices.emir import Emir
 from slamlab.devices.emir.driver import WATCHDOG_TIMEOUT
 from slamlab.devices.errors import SlamlabError
-from slamlab.devices.rplidar import RPLidar
 from slamlab.devices.transport import open_port
-from slamlab.files.errors import SourceError
+from slamlab.files import SourceError
+from slamlab.sources.base import checked_command
 from slamlab.sources.lidar_on_robot import LidarOnRobot
 
 
 class LiveDevices(LidarOnRobot):
-    """Live source: readings of an RPLIDAR and an eMIR robot, as they come.
+    """Live readings of a lidar, with or without an eMIR robot; close() closes all devices.
 
-    Ends when it is closed. Both devices are its own: it closes them. The robot drives on as
-    commanded only while readings are taken: see :class:`Emir`. Where ``renewed_by_readings`` is
-    set to False, only while somebody calls :meth:`renew`.
-
-    Parameters
-    ----------
-    lidar : RPLidar
-    emir : Emir, or None for a lidar that is carried or stands
-    front : float, where the robot's front lies for the lidar, clockwise [degree]
+    Each reading renews the robot's command watchdog. If ``renewed_by_readings`` is False, only
+    :meth:`renew` renews the watchdog.
     """
 
     renewed_by_readings = True
 
-    def __init__(self, lidar, emir=None, front=0.0):
-        there = [device for device in (lidar, emir) if device is not None]
-        super().__init__("devices:" + ",".join(device.name for device in there), front)
+    def __init__(self, lidar, emir=None, front=0.0, prefix="devices:"):
+        devices = [device for device in (lidar, emir) if device is not None]
+        super().__init__(prefix + ",".join(device.name for device in devices), front)
+        self.sensor = getattr(lidar, "sensor", self.sensor)
         self.lidar, self.emir, self._command = lidar, emir, None
+        self.has_odometry = emir is not None
 
     def __iter__(self):
         try:
@@ -43,30 +39,12 @@ class LiveDevices(LidarOnRobot):
 
     @property
     def drivable(self):
-        """bool, whether there is a robot that takes drive commands."""
         return self.emir is not None
 
     def drive(self, command):
-        """Drive the robot by a velocity command; its readings come in real time.
-
-        Parameters
-        ----------
-        command : (2,) speed v, turn rate omega [m/s, rad/s]
-
-        Raises
-        ------
-        SourceError : no two finite numbers, no robot, or none any more
-        """
         if self.emir is None:
-            raise SourceError(f"{self.name} has no robot: it cannot be driven")
-        try:
-            v, omega = (float(number) for number in command)
-            if not np.isfinite([v, omega]).all():
-                raise ValueError
-        except (TypeError, ValueError):
-            raise SourceError(
-                f"a command is speed and turn rate [m/s, rad/s], not {command!r}"
-            ) from None
+            raise SourceError(f"{self.name} has no robot and cannot be driven")
+        v, omega = checked_command(command)
         try:
             self.emir.drive(v, omega)
         except SlamlabError as error:
@@ -74,28 +52,30 @@ class LiveDevices(LidarOnRobot):
         self._command = np.array([v, omega])
 
     def renew(self):
-        """See :meth:`Source.renew`: it goes to the robot's command watchdog."""
         if self.emir is not None:
             self.emir.renew()
 
     def close(self):
-        """Close the devices: stop robot and lidar, release their ports."""
         if self.emir is not None:
             self.emir.close()
         self.lidar.close()
 
-    def _turns(self):
-        """Turns of the lidar; who asks for one wants the robot to drive on."""
-        for turn in self.lidar:
+    def _revolutions(self):
+        for revolution in self.lidar:
+            warnings = getattr(self.lidar, "warnings", ())  # optional attribute of a driver
+            self.notes += [warning for warning in warnings if warning not in self.notes]
+            dropped = getattr(self.lidar, "stats", {}).get("revolutions dropped", 0)
+            if dropped:  # the consumer is slower than the lidar (back-pressure)
+                self.damage["revolutions dropped"] = self.skipped = dropped
             if self.emir is not None:
                 if self.emir.error is not None:
                     raise self.emir.error
                 if self.renewed_by_readings:
                     self.emir.renew()
-            yield turn
+            yield revolution
 
     def _pose_at(self, time):
-        return np.zeros(3) if self.emir is None else self.emir.pose_at(time)
+        return self.emir.pose_at(time)
 
 
 def devices(
@@ -105,38 +85,25 @@ def devices(
     reconnect=False,
     watchdog=WATCHDOG_TIMEOUT,
     openers=(open_port, open_port),
-    clock=None,
+    prefix="devices:",
 ):
-    """Open a lidar and a robot by their serial ports, as a live source.
+    """Open the ports ``"LIDAR_PORT,EMIR_PORT"`` as LiveDevices. Raises SourceError.
 
-    Parameters
-    ----------
-    ports : str, LIDAR_PORT,EMIR_PORT; without the second the lidar alone; an empty first finds it
-    calibration : Calibration of the robot
-    front : float, where the robot's front lies for the lidar, clockwise [degree]
-    reconnect : bool, whether lost connections are tried again until they are back
-    watchdog : float, after which a motion that is not renewed ends [s]
-    openers : two callables(port, baud) -> Transport, of lidar and robot
-    clock : Clock of both
-
-    Returns
-    -------
-    LiveDevices
-
-    Raises
-    ------
-    SourceError : why it does not work, and what to do
+    The second port is optional; if the first is empty, the lidar's port is detected. ``watchdog``
+    is the timeout of the command watchdog [s], ``openers`` open the transports of lidar and robot,
+    and ``prefix`` is one of LIDARS.
     """
     names = [name.strip() for name in ports.split(",")]
     if len(names) > 2:
-        raise SourceError(f"devices:LIDAR_PORT,EMIR_PORT names two ports, not {len(names)}")
-    shared, emir = {"reconnect": reconnect, "clock": clock}, None
-    of_lidar, of_robot = openers
+        raise SourceError(f"{prefix}LIDAR_PORT,EMIR_PORT takes at most two ports, not {len(names)}")
+    (lidar_opener, robot_opener), emir = openers, None
     try:
         if len(names) == 2 and names[1]:
-            robot = {"calibration": calibration, "watchdog": watchdog, "opener": of_robot}
-            emir = Emir(names[1], **robot, **shared)
-        return LiveDevices(RPLidar(names[0] or None, opener=of_lidar, **shared), emir, front)
+            options = {"opener": robot_opener, "reconnect": reconnect, "watchdog": watchdog}
+            emir = Emir(names[1], calibration=calibration, **options)
+        driver = getattr(drivers, drivers.LIDARS[prefix])
+        lidar = driver(names[0] or None, opener=lidar_opener, reconnect=reconnect)
+        return LiveDevices(lidar, emir, front, prefix)
     except SlamlabError as error:
         if emir is not None:
             emir.close()

@@ -1,37 +1,35 @@
-"""Open any source of readings by one string (factory): simulation, log file, ROS bag, devices."""
-
-import json
+"""Open a source of readings from one string (factory); the file format is detected."""
 
 import numpy as np
 
-from slamlab import worlds
-from slamlab.files.errors import SourceError
-from slamlab.files.published_recordings import resolve
-from slamlab.files.text_files import read_bytes
-from slamlab.sources import breezyslam, ros_messages
+from slamlab.devices import LIDARS
+from slamlab.files import InputFile, SourceError
+from slamlab.simulation import worlds
+from slamlab.sources import ros_bag_files
 from slamlab.sources.breezyslam import BreezySlamLog
 from slamlab.sources.carmen import CarmenLog
-from slamlab.sources.reading_log import FORMAT, ReadingLog
-from slamlab.sources.rplidar_grabber import POINT_PATTERN, GrabberLog
+from slamlab.sources.public_datasets import resolve
+from slamlab.sources.reading_log import ReadingLog
+from slamlab.sources.rplidar_text import RplidarText
 from slamlab.sources.simulated_robot import simulation
+from slamlab.sources.unsupported_formats import describe
 
 SIMULATION_PREFIX = "sim:"  # of a simulated world's name
-DEVICES_PREFIX = "devices:"  # of two serial ports
 EMULATED_PREFIX = "emulated:"  # of a world's name
-TOPIC_SEPARATOR = "#"  # between a ROS bag's path and its topics
+TOPIC_SEPARATOR = "#"  # between the path of a ROS bag and its topics
+LOGS = ReadingLog, CarmenLog, BreezySlamLog, RplidarText  # tried in this order
 
 
-def open(spec, rng=None):
-    """Open a source: a simulation, a log file, a recording by its name, a ROS bag, devices.
-
-    The file format is recognised by the content, not by the name.
+def open(spec, rng=None, carried=False):
+    """Open a source of readings; the format of a file is detected from its content.
 
     Parameters
     ----------
-    spec : str or Path, ``sim:WORLD``, a file, a recording's name, or a ROS bag: its file or folder,
-        where it has several scanners ``BAG#/scan``, where several odometries ``BAG#/scan,/odom``;
-        or ``devices:LIDAR_PORT,EMIR_PORT``, live, or ``emulated:WORLD``, both devices emulated
-    rng : numpy.random.Generator, for simulations; seed 0 by default
+    spec : str or Path: ``sim:WORLD``, a log, a raw recording, the name of a public data set; a ROS
+        bag, with ``#/scan`` or ``#/scan,/odom`` to choose among several topics;
+        ``devices:LIDAR_PORT,EMIR_PORT``, or another prefix of LIDARS; ``emulated:WORLD``
+    rng : numpy.random.Generator for simulations; seed 0 by default
+    carried : bool, whether the emulated lidar is hand-held in a flat, without a robot
 
     Returns
     -------
@@ -39,60 +37,54 @@ def open(spec, rng=None):
 
     Raises
     ------
-    SourceError : what is wrong and what there is
+    SourceError
+    ExtraMissing : ``rosbags`` is not installed
     """
     spec, rng = str(spec), np.random.default_rng(0) if rng is None else rng
+    if carried and not spec.startswith(EMULATED_PREFIX):
+        raise SourceError(
+            f"only an emulated lidar can be hand-held, as in emulated:flat, not {spec}"
+        )
     if spec.startswith(SIMULATION_PREFIX):
         return simulation(spec.removeprefix(SIMULATION_PREFIX), rng)
-    if spec.startswith(DEVICES_PREFIX):
-        from slamlab.sources.live_devices import devices  # drivers are no use to a log
+    if spec.startswith(tuple(LIDARS)):
+        from slamlab.sources.live_devices import devices  # a log does not need the drivers
 
-        return devices(spec.removeprefix(DEVICES_PREFIX))
+        at = spec.index(":") + 1
+        return devices(spec[at:], prefix=spec[:at])
     if spec.startswith(EMULATED_PREFIX):
         from slamlab.sources.emulated_devices import EmulatedDevices
 
-        return EmulatedDevices(_world(spec.removeprefix(EMULATED_PREFIX)), rng)
+        try:
+            world = worlds.by_name(spec.removeprefix(EMULATED_PREFIX))
+        except ValueError as error:
+            raise SourceError(str(error)) from None
+        return EmulatedDevices(world, rng, carried=carried)
     spec = resolve(spec)
-    bag, _, topics = (
-        (spec, "", "") if ros_messages.is_bag(spec) else spec.rpartition(TOPIC_SEPARATOR)
-    )
-    if ros_messages.is_bag(bag):
-        from slamlab.sources.ros_bag import RosBag  # its rotations bring SciPy, slow to import
+    bag, _, topics = spec.rpartition(TOPIC_SEPARATOR)
+    if ros_bag_files.is_bag(spec):
+        bag, topics = spec, ""
+    if ros_bag_files.is_bag(bag):
+        from slamlab.sources.ros_bag import RosBag  # imports SciPy, which is slow
 
         return RosBag(bag, topics.split(",") if topics else ())
-    content, torn = read_bytes(spec)
-    if not content.strip():
-        raise SourceError(f"{spec} is empty: it holds no readings")
-    if _is_reading_log(content):
-        return ReadingLog(spec, (content, torn))
-    if content.startswith(b"{"):
-        from slamlab.sources.raw_recordings import RecordedDevices, is_recording
+    file = InputFile(spec)
+    head = file.head()
+    if not head.strip():
+        raise SourceError(f"{spec} is empty and contains no readings")
+    if head.startswith(b"{"):
+        from slamlab.devices.recording.recording_file import is_recording
 
-        if is_recording(content):
-            return RecordedDevices(spec, (content, torn))
-    if content.startswith(b"FLASER") or b"\nFLASER" in content or b"\rFLASER" in content:
-        return CarmenLog(spec, (content, torn))
-    if POINT_PATTERN.search(content):
-        return GrabberLog(spec, (content, torn))
-    if breezyslam.is_breezyslam_line(content.lstrip().split(b"\n", 1)[0]):
-        return BreezySlamLog(spec, (content, torn))
+        if is_recording(head):
+            from slamlab.sources.raw_recordings import RecordedDevices
+
+            content = b"".join(file)
+            return RecordedDevices(spec, (content, file.truncated))
+    for log in LOGS:
+        if log.recognises(head):
+            return log(spec, file)
+    known = ", ".join(log.kind for log in LOGS)
     raise SourceError(
-        f"{spec} is no log that slamlab knows: neither a reading log, nor a raw recording of "
-        "devices, nor a CARMEN log with FLASER lines, nor the RPLIDAR grabber's text, nor a "
-        "BreezySLAM log, nor a ROS bag"
+        f"{spec} has no format that slamlab can read: it {describe(head)}. Supported formats are "
+        f"{known}, raw recordings of devices, and ROS bags"
     )
-
-
-def _world(name):
-    try:
-        return worlds.by_name(name)
-    except ValueError as error:
-        raise SourceError(str(error)) from None
-
-
-def _is_reading_log(content):
-    first = content.split(b"\n", 1)[0]
-    try:
-        return json.loads(first)["format"] == FORMAT
-    except (ValueError, TypeError, KeyError, RecursionError):
-        return False

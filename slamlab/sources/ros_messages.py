@@ -1,187 +1,159 @@
-"""Messages of ROS 1 and ROS 2 bags, read through the library ``rosbags``: scans, odometry, tf.
+"""Scans, odometry and transforms (tf) of a ROS bag, read message by message in bounded memory."""
 
-Of each message only the numbers are kept that a planar SLAM needs. The types are those of the
-standard, so that a bag with messages of its own kinds can be read too.
-"""
-
+import math
+import sys
+from array import array
+from collections import Counter, defaultdict
 from dataclasses import dataclass, field
-from pathlib import Path
 
-import numpy as np
+from slamlab.files import SourceError
+from slamlab.sources.disk_buffer import DiskBuffer
+from slamlab.sources.ros_bag_reader import BagFiles
+from slamlab.sources.ros_scans import ScanReader
+from slamlab.sources.ros_topics import ODOMETRY, SCANS, choose
 
-from slamlab.files.errors import SourceError
-from slamlab.files.text_files import reason
-
-# first bytes of a ROS 1 bag, a ROS 2 bag (SQLite, MCAP)
-MAGIC_BYTES = (b"#ROSBAG V", b"SQLite format 3\0", b"\x89MCAP0\r\n")
-# message types of ROS
-SCAN, ODOMETRY = "sensor_msgs/msg/LaserScan", "nav_msgs/msg/Odometry"
-TF, OLD_TF = "tf2_msgs/msg/TFMessage", "tf/msg/tfMessage"
-TF_FIELDS = "geometry_msgs/TransformStamped[] transforms"  # definition of a tf message
-NAMES = {SCAN: "sensor_msgs/LaserScan", ODOMETRY: "nav_msgs/Odometry"}  # for error messages
+MAX_NORM_ERROR = 0.01  # of a quaternion's squared norm, as in tf2 [1]
+MAX_POSITION = 1e8  # of a plausible coordinate [m]
+NOT_FINITE = "poses that are not finite or beyond 1e8 m"
 
 
 @dataclass
 class Messages:
-    """Messages of a ROS bag: laser scans, odometry, tf transforms.
+    """Messages of a ROS bag; ``damage`` counts unusable data by kind.
 
-    Parameters
-    ----------
-    scans : list of (stamp [s], LaserScan)
-    odometry : list of (stamp [s], frame, child frame, position (3,) [m], quaternion xyzw (4,))
-    transforms : list of (stamp [s], frame, child frame, position, quaternion)
-    damage : list of str, the kind of each message that could not be read; ``torn`` where the bag
-        broke off
+    ``scans`` is a DiskBuffer of RosScan, with ``stamps``, ``received``, ``durations`` [s] and
+    ``frames`` (n,). ``odometry`` and ``moving`` (transforms) are {(frame, child frame): (k, 9)},
+    rows as in ROW; ``fixed``: {(frame, child frame): row} of static transforms; ``changed``: static
+    transforms with several values; ``unusable``: Counters of faults by child frame, None: odometry.
     """
 
-    scans: list = field(default_factory=list)
-    odometry: list = field(default_factory=list)
-    transforms: list = field(default_factory=list)
-    damage: list = field(default_factory=list)
-    torn: bool = False
+    topic: str
+    odometry_topic: str | None
+    scans: DiskBuffer = field(default_factory=DiskBuffer)
+    stamps: array = field(default_factory=lambda: array("d"))
+    received: array = field(default_factory=lambda: array("d"))
+    durations: array = field(default_factory=lambda: array("d"))
+    frames: list = field(default_factory=list)
+    odometry: dict = field(default_factory=dict)
+    moving: dict = field(default_factory=dict)
+    fixed: dict = field(default_factory=dict)
+    changed: set = field(default_factory=set)
+    unusable: dict = field(default_factory=lambda: defaultdict(Counter))
+    unstamped: int = 0  # scans
+    notes: list = field(default_factory=list)
+    damage: Counter = field(default_factory=Counter)
+    skipped: int = 0  # scans
 
+    def add_scan(self, scan, frame, stamp, received):
+        if scan is None:
+            self.skipped += 1
+            return
+        self.scans.append(scan)
+        self.stamps.append(stamp or received)
+        self.received.append(received)
+        self.durations.append(scan.duration)
+        self.frames.append(sys.intern(frame))
+        self.unstamped += not stamp
 
-def is_bag(path):
-    """Recognise a ROS bag: a ROS 1 file, a ROS 2 folder, or one of the files in such a folder.
-
-    Parameters
-    ----------
-    path : str or Path
-
-    Returns
-    -------
-    bool
-    """
-    path = Path(path)
-    try:
-        if path.is_dir():
-            return (path / "metadata.yaml").is_file()
-        with path.open("rb") as file:
-            return file.read(32).startswith(MAGIC_BYTES)
-    except (OSError, ValueError):
-        return False  # whoever reads it as a log will say why
+    def add_pose(self, topic, frame, child, row):
+        """Add a row of a transform (tf), or of odometry if ``topic`` is None."""
+        key, fault = (frame, child), _fault(row)
+        if fault:
+            self.unusable[topic and child][fault] += 1
+        elif topic and topic.endswith("tf_static"):
+            if key in self.fixed and self.fixed[key][2:] != row[2:]:
+                self.changed.add(key)
+            self.fixed[key] = row
+        else:
+            rows = self.moving if topic else self.odometry
+            rows.setdefault(key, array("d")).extend(row)
 
 
 def read(path, topics=()):
-    """Read a bag: scans of one topic, odometry of one topic if there is any, all tf transforms.
+    """Read the scans of one topic, the odometry of at most one topic, and all transforms (tf).
 
-    Parameters
-    ----------
-    path : str or Path
-    topics : names of topics to take where there are several
-
-    Returns
-    -------
-    Messages
-
-    Raises
-    ------
-    SourceError : ``rosbags`` is not installed; the bag cannot be read, holds no scans, or does not
-        say which
+    ``topics`` are those that the user chose among several. Raises SourceError, ExtraMissing.
     """
-    try:
-        from rosbags import rosbag1, rosbag2
-        from rosbags.typesys import Stores, get_types_from_msg, get_typestore
-    except ImportError:
-        raise SourceError(
-            f"{path} is a ROS bag, and reading it needs rosbags: pip install 'slamlab[ros]'"
-        ) from None
-    path = Path(path)
-    first = path.is_file() and path.open("rb").read(9) == MAGIC_BYTES[0]
-    store = get_typestore(Stores.ROS1_NOETIC if first else Stores.LATEST)
-    if first:  # whose store lacks this type
-        store.register(get_types_from_msg(TF_FIELDS, TF))
-    deserialise = store.deserialize_ros1 if first else store.deserialize_cdr
-    messages = Messages()
-    try:
-        with (rosbag1 if first else rosbag2).Reader(path) as reader:
-            chosen = _choose_connections(reader.connections, topics, path)
-            for connection, stamp, data in reader.messages(chosen):
-                _add_message(messages, connection.msgtype, stamp, data, deserialise)
-    except SourceError:
-        raise
-    except Exception as error:  # a damaged bag makes the library raise whatever it stumbles over
-        if not messages.scans:
-            raise SourceError(
-                f"{path} cannot be read as a ROS bag, it may be cut short: {_error_line(error)}"
-            ) from None
-        messages.torn = True
-    if not messages.scans:
-        raise SourceError(f"{path} is damaged: none of its scans can be read")
+    read_scan = ScanReader()
+    with BagFiles(path) as files:
+        topic, odometry, wanted = choose(path, files.counts, topics)
+        messages = Messages(topic, odometry)
+        for name, kind, received, message in files.messages(wanted):
+            try:
+                parts = _parts(kind, received, message, read_scan)
+            except (AttributeError, TypeError):  # undecodable, or another definition
+                messages.damage["unreadable messages"] += 1
+                messages.skipped += kind in SCANS
+                continue
+            for part in parts:
+                if kind in SCANS:
+                    messages.add_scan(*part, received)
+                else:
+                    messages.add_pose(None if kind == ODOMETRY else name, *part)
+    if messages.unstamped:
+        what = f"the timestamp is 0 in {messages.unstamped} scans"
+        messages.notes.append(f"{what}, so the time of reception is used")
+    if read_scan.odd_times:
+        what = f"time_increment contradicts scan_time in {read_scan.odd_times} scans"
+        messages.notes.append(f"{what}, so their beams are treated as simultaneous")
+    messages.damage.update(files.damage)
+    messages.damage.update(read_scan.refused)
+    _check_scans(path, messages, read_scan)
     return messages
 
 
-def _choose_connections(connections, topics, path):
-    """Choose the connections to read: one topic of scans, at most one of odometry, tf."""
-    there = {each.topic for each in connections}
-    unknown = [topic for topic in topics if topic not in there]
-    if unknown:
-        raise SourceError(f"{path} has no topic {unknown[0]}; there are: {_joined(there)}")
-    wanted = [each for each in connections if each.msgtype in (TF, OLD_TF)]
-    for kind in (SCAN, ODOMETRY):
-        of_kind = [each for each in connections if each.msgtype == kind and each.msgcount]
-        names = {each.topic for each in of_kind}
-        if len(names) > 1:
-            names &= set(topics)
-        if len(names) > 1 or (of_kind and not names):
-            several = _joined({each.topic for each in of_kind})
-            raise SourceError(
-                f"{path} has {NAMES[kind]} on several topics: {several}; say which, as in "
-                f"{path}#{of_kind[0].topic}"
-            )
-        if kind is SCAN and not names:
-            raise SourceError(
-                f"{path} holds no scan: no {NAMES[SCAN]} message; its topics: {_joined(there)}"
-            )
-        wanted += [each for each in of_kind if each.topic in names]
-    return wanted
+def _check_scans(path, messages, read_scan):
+    """Raise SourceError for a bag without a usable scan."""
+    refused, count = sum(read_scan.refused.values()), len(messages.scans)
+    if not count and refused:
+        what = f"none of the {refused} scans of {messages.topic} can be used"
+        raise SourceError(f"{path}: {what}, because {read_scan.usual_refusal()}")
+    if not count:
+        what = f"none of the scans of {messages.topic} can be read"
+        raise SourceError(f"{path} is damaged: {what}")
+    if not read_scan.returns:
+        what = f"no range of the {count} scans of {messages.topic} is between range_min and"
+        raise SourceError(f"{path}: {what} range_max. Check them, and whether the lidar measures")
 
 
-def _add_message(messages, kind, received, data, deserialise):
-    """Deserialise and add one message; one that cannot be read is counted as damage."""
-    try:
-        message = deserialise(data, TF if kind == OLD_TF else kind)
-        if kind == SCAN:
-            messages.scans.append((_stamp(message.header, received), message))
-        elif kind == ODOMETRY:
-            frame, child = message.header.frame_id, message.child_frame_id
-            pose = message.pose.pose
-            where = pose.position, pose.orientation
-            row = _transform_row(_stamp(message.header, received), frame, child, *where)
-            messages.odometry.append(row)
-        else:
-            messages.transforms += [
-                _transform_row(
-                    _stamp(each.header, received),
-                    each.header.frame_id,
-                    each.child_frame_id,
-                    each.transform.translation,
-                    each.transform.rotation,
-                )
-                for each in message.transforms
-            ]
-    except Exception:  # as above
-        messages.damage.append("messages that cannot be read")
+def _parts(kind, received, message, read_scan):
+    """Return the contents of a message: arguments of ``add_scan``, or of each ``add_pose``.
+
+    Raises AttributeError or TypeError if the message is None or has other fields.
+    """
+    if kind in SCANS:
+        header = message.header
+        return [(read_scan(message), _frame(header.frame_id), _stamp(header))]
+    if kind == ODOMETRY:
+        pose = message.pose.pose
+        return [_pose(message, received, pose.position, pose.orientation)]
+    return [
+        _pose(each, received, each.transform.translation, each.transform.rotation)
+        for each in message.transforms
+    ]
 
 
-def _transform_row(stamp, frame, child, t, q):
-    place, turn = np.array([t.x, t.y, t.z]), np.array([q.x, q.y, q.z, q.w])
-    if not (np.isfinite(place).all() and np.isfinite(turn).all() and turn.any()):
-        raise ValueError
-    # ROS 1 wrote frames with a slash, ROS 2 does not
-    return stamp, frame.strip("/"), child.strip("/"), place, turn
+def _pose(message, received, t, q):
+    """Return frame, child frame, and row (see ROW) of a pose."""
+    stamp = _stamp(message.header) or received
+    row = stamp, received, t.x, t.y, t.z, q.x, q.y, q.z, q.w
+    return _frame(message.header.frame_id), _frame(message.child_frame_id), row
 
 
-def _stamp(header, received):
-    """Time stamp of the measurement; where it is 0, of its reception [s]."""
-    stamp = header.stamp.sec + header.stamp.nanosec * 1e-9
-    return stamp if stamp else received * 1e-9
+def _fault(row):
+    """Return the fault of a pose, or ""."""
+    squared = sum(each * each for each in row[5:])
+    if not (sum(map(abs, row[2:5])) < MAX_POSITION and math.isfinite(squared)):
+        return NOT_FINITE
+    if squared == 0:
+        return "quaternions of norm 0"
+    return "" if abs(squared - 1) < MAX_NORM_ERROR else "quaternions whose norm is not 1"
 
 
-def _joined(names):
-    return ", ".join(sorted(names)) or "none"
+def _frame(name):
+    return name.strip("/")  # frames of ROS 1 may begin with a slash
 
 
-def _error_line(error):
-    """Error message of the library, in one line."""
-    return " ".join(reason(error).split()) or type(error).__name__
+def _stamp(header):
+    """Return the timestamp of the measurement [s], 0 if the driver does not set it."""
+    return header.stamp.sec + header.stamp.nanosec * 1e-9

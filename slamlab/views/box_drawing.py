@@ -1,4 +1,4 @@
-"""Plots for the bounded filter (BOR): sectors, half-planes, angle intervals, interval plot."""
+"""Plots for set-membership estimation (BOR): sectors, half-planes, intervals."""
 
 import numpy as np
 from matplotlib.patches import Polygon, Wedge
@@ -7,7 +7,7 @@ from slamlab.views.colours import COLOURS
 from slamlab.views.figures import axes, chart
 from slamlab.views.legends import legend
 
-# told apart without colour, too
+# distinguishable without colour
 _EDGE_STYLES = {
     "far": (COLOURS["corrected"], "solid"),
     "near": (COLOURS["naive"], "dashed"),
@@ -15,22 +15,11 @@ _EDGE_STYLES = {
     "right": (COLOURS["robot"], "dotted"),
 }
 SHADED_SHARE = 0.08  # width of an edge's shaded side, as a share of the figure [1]
-HALF_LENGTH = 100.0  # of the line that an edge is drawn as, from its foot [m]
+HALF_LENGTH = 100.0  # of the line of an edge, from its foot point [m]
 
 
 def scene(title, window, size=(5, 4.2)):
-    """Figure with one map whose window (axis limits) stays, whatever is drawn in it.
-
-    Parameters
-    ----------
-    title : str or None
-    window : (x_min, x_max, y_min, y_max) [m]
-    size : (width, height) [80 pixels of the page]
-
-    Returns
-    -------
-    (Figure, Axes)
-    """
+    """Create a map with a fixed window (x_min, x_max, y_min, y_max) [m]; return (Figure, Axes)."""
     fig, ax = axes(title, size)
     ax.set_aspect("equal", adjustable="box")
     ax.set(xlim=window[:2], ylim=window[2:])
@@ -38,20 +27,8 @@ def scene(title, window, size=(5, 4.2)):
 
 
 def sector(ax, origin, ranges, angles, label=None, **style):
-    """Draw a sector of a ring: all points at an interval of ranges and of bearings from one point.
-
-    Parameters
-    ----------
-    ax : Axes
-    origin : (2,) [m]
-    ranges : (near, far) [m]
-    angles : (right, left), counter-clockwise [rad]
-    label : str or None, for the legend
-    style : what matplotlib's patches take
-
-    Returns
-    -------
-    Wedge
+    """Draw the sector between two ranges (near, far) [m] and two bearings (right, left) [rad];
+    return a Wedge.
     """
     near, far = ranges
     usual = {"facecolor": COLOURS["scan"], "edgecolor": COLOURS["scan"], "alpha": 0.35}
@@ -64,65 +41,32 @@ def sector(ax, origin, ranges, angles, label=None, **style):
 
 
 def edges(ax, half_planes, names):
-    """Draw the edges of half-planes (linear constraints), their forbidden sides shaded.
-
-    Parameters
-    ----------
-    ax : Axes
-    half_planes : (a, b, c) each, allowed where a x + b y ≤ c
-    names : str each: far, near, left or right
-
-    Returns
-    -------
-    list of Line2D
+    """Draw the edges of half-planes a x + b y ≤ c and shade their infeasible sides; return a list
+    of Line2D. ``names`` are far, near, left or right.
     """
     lines, strip_width = [], SHADED_SHARE * np.ptp(ax.get_ylim())
     for (a, b, c), name in zip(half_planes, names, strict=True):
         colour, dash = _EDGE_STYLES[name]
-        foot, along = c * np.array([a, b]), np.array([-b, a])
-        lines.append(ax.axline(foot, foot + along, color=colour, linestyle=dash, label=name))
-        ends = np.array([foot - HALF_LENGTH * along, foot + HALF_LENGTH * along])
+        foot_point, along = c * np.array([a, b]), np.array([-b, a])
+        lines.append(
+            ax.axline(foot_point, foot_point + along, color=colour, linestyle=dash, label=name)
+        )
+        ends = np.array([foot_point - HALF_LENGTH * along, foot_point + HALF_LENGTH * along])
         strip = np.concatenate([ends, ends[::-1] + strip_width * np.array([a, b])])
         shade = Polygon(strip, facecolor=colour, alpha=0.15, linewidth=0)
-        ax.add_artist(shade)  # an artist leaves the limits alone, a patch does not
+        ax.add_artist(shade)  # an artist does not change the axis limits, a patch does
         shade.set_clip_path(ax.patch)
     return lines
 
 
 def directions(ax, origin, angles, radius, label=None, **style):
-    """Draw an angle interval (directions) as a slice of a pie.
-
-    Parameters
-    ----------
-    ax : Axes
-    origin : (2,) [m]
-    angles : (right, left), counter-clockwise [rad]
-    radius : float [m]
-    label : str or None, for the legend
-    style : what matplotlib's patches take
-
-    Returns
-    -------
-    Wedge
-    """
+    """Draw an interval of directions (right, left) [rad]; return a Wedge."""
     return sector(ax, origin, (0.0, radius), angles, label, **style)
 
 
 def intervals(rows, truth, xlabel, ylabel, title=None, last=1, size=(6, 4)):
-    """Interval plot: intervals one above the other, the last set off, and the truth through all.
-
-    Parameters
-    ----------
-    rows : {name: (low, high)}, from the top down
-    truth : float
-    xlabel, ylabel : str, with the unit in brackets
-    title : str or None
-    last : int, how many at the bottom are drawn as results
-    size : (width, height) [80 pixels of the page]
-
-    Returns
-    -------
-    (Figure, Axes)
+    """Draw an interval plot of the truth and ``rows``, {name: (low, high)}; the last rows are
+    results.
     """
     fig, ax = chart(xlabel, ylabel, title, size)
     heights = -np.arange(len(rows))

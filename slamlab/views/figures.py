@@ -1,34 +1,22 @@
-"""Figures of Matplotlib: axes in metres, panels, charts, bands.
-
-Figures are made without pyplot: nothing global is opened, so nothing has to be closed.
-"""
+"""Figures and axes of Matplotlib without pyplot, so that no figure stays open."""
 
 from matplotlib.figure import Figure
 
 from slamlab.views.colours import COLOURS, SERIES
 
-CSS_DPI = 96  # pixels of a page to an inch of print: text of 10 pt is as large as 10 pt of a page
-CYCLE = [colour for colour, *_ in SERIES]  # of what is drawn without a colour
-UNIT = 80  # pixels of a page to a unit of a figure's size; 11 units fill a notebook's page
+CSS_DPI = 96  # pixels of a page in an inch: 10 pt in a figure are 10 pt on the page
+CYCLE = [colour for colour, *_ in SERIES]  # default colours
+UNIT = 80  # pixels of a page in a unit of a figure's size; a notebook's page is 11 units wide
 
 
 def empty(size):
-    """Figure without axes.
-
-    Parameters
-    ----------
-    size : (width, height) [80 pixels of the page]
-
-    Returns
-    -------
-    Figure
-    """
+    """Create an empty figure; size is (width, height) in units of 80 pixels of the page."""
     inches = [UNIT / CSS_DPI * side for side in size]
     return Figure(figsize=inches, dpi=CSS_DPI, layout="constrained")
 
 
 def axes(title=None, size=(6, 5)):
-    """Figure with one map: axes of equal scale (aspect ratio 1), in metres.
+    """Create a map: axes in metres with equal scale.
 
     Parameters
     ----------
@@ -44,13 +32,13 @@ def axes(title=None, size=(6, 5)):
 
 
 def panels(titles, size=(11, 5), shared=True):
-    """Figure with one map per title (subplots), side by side.
+    """Create maps side by side, one for each title.
 
     Parameters
     ----------
     titles : sequence of str or None
-    size : (width, height) of the whole figure [80 pixels of the page]
-    shared : bool, whether all show the same part of the plane
+    size : (width, height) of the whole figure [80 pixels]
+    shared : bool, whether all show the same region
 
     Returns
     -------
@@ -70,13 +58,12 @@ def panels(titles, size=(11, 5), shared=True):
 
 
 def chart(xlabel, ylabel, title=None, size=(6, 4)):
-    """Figure with one chart (x–y plot): quantities over quantities, not a map.
+    """Create a chart (x–y plot).
 
     Parameters
     ----------
     xlabel, ylabel : str, with the unit in brackets
-    title : str or None
-    size : (width, height) [80 pixels of the page]
+    title, size : as in :func:`axes`
 
     Returns
     -------
@@ -94,12 +81,12 @@ def chart(xlabel, ylabel, title=None, size=(6, 4)):
 
 
 def band(ax, low, high, label=None):
-    """Draw a band across a chart, such as where 95 % of values lie: shaded, its edges drawn.
+    """Draw a horizontal band in a chart, such as a 95 % interval.
 
     Parameters
     ----------
     ax : Axes
-    low, high : float, of the axis that points up
+    low, high : float, along y
     label : str or None, for the legend
 
     Returns
@@ -107,20 +94,19 @@ def band(ax, low, high, label=None):
     Patch
     """
     edge = {"edgecolor": COLOURS["limit"], "linestyle": "dashdot", "linewidth": 0.8}
-    # the shade may be faint, for the edges are not
+    # the shade may be faint, because the edges are visible
     return ax.axhspan(low, high, facecolor=f"{COLOURS['guide']}66", label=label, zorder=0, **edge)
 
 
 def two_sigma(ax, x, y, sigma, label, color=COLOURS["corrected"]):
-    """Draw an estimate over time, and the band of ±2σ round it that a filter believes in.
+    """Draw an estimate over time with its ±2σ band.
 
     Parameters
     ----------
     ax : Axes
-    x, y : (n,)
-    sigma : (n,) standard deviations
-    label : str, for the legend
-    color : what matplotlib takes for one
+    x, y, sigma : (n,)
+    label : str
+    color : as matplotlib takes it
     """
     ax.fill_between(
         x, y - 2 * sigma, y + 2 * sigma, color=color, alpha=0.2, label=f"±2σ of {label}"

@@ -1,4 +1,4 @@
-"""Drawing of an estimator's layers: scan, track, occupancy grid, covariance ellipse, samples."""
+"""Drawing of an estimator's layers: points, paths, covariance ellipses, grids, scan overlays."""
 
 import numpy as np
 from matplotlib.collections import LineCollection, PatchCollection
@@ -7,40 +7,43 @@ from matplotlib.markers import MarkerStyle
 from matplotlib.patches import Ellipse, Rectangle
 from matplotlib.path import Path
 
-from slamlab.layers import Boxes, Ellipses, Grid, Points, Poses, Samples, Segments
+from slamlab.layers import Boxes, Ellipses, Grid, Particles, Points, Poses, Segments
 from slamlab.views.colours import COLOURS, DASHES, in_legends
-from slamlab.views.figures import panels
-from slamlab.views.legends import legend_below
+from slamlab.views.figures import axes, panels
+from slamlab.views.legends import legend, legend_below
 
 # 95 % of a Gaussian in the plane lies within this Mahalanobis distance: √χ²(0.95, 2)
 SIGMAS_95 = 2.4477
-UNKNOWN_GREY = np.array([0.85, 0.85, 0.85])  # the grey of cells of which nothing is known
-LANDMARK_SIZE = 10.0  # of a marker: landmarks are few among a scan's points
-MAX_CELLS = 400  # cells of a grid in a row; of more a figure would lose some
+LEVEL = "95 %"  # of confidence ellipses
+UNKNOWN_GREY = np.array([0.85, 0.85, 0.85])  # of unknown cells
+LANDMARK_SIZE = 10.0  # of a marker, larger than a scan's points
+MAX_CELLS = 400  # cells of a grid in a row; larger grids are downsampled
 # an arrow head that points along +x
 ROBOT_ARROW = Path([(1.0, 0.0), (-0.7, 0.65), (-0.4, 0.0), (-0.7, -0.65), (1.0, 0.0)])
 
 
 def draw(ax, layer, **style):
-    """Draw a layer (points, poses, segments, ellipses, boxes, samples, occupancy grid) on axes.
+    """Draw a layer (points, poses, segments, ellipses, boxes, particles, occupancy grid) on axes.
 
     Parameters
     ----------
     ax : Axes
-    layer : a layer of :mod:`slamlab.layers`; its name gives colour, dash and the legend's entry
-    style : what matplotlib's artists take, such as ``color``, ``label``, ``alpha``
+    layer : of :mod:`slamlab.layers`; its name determines colour, line style and legend entry
+    style : as matplotlib's artists take it
 
     Returns
     -------
-    list of the artists drawn
+    list of artists
 
     Raises
     ------
-    TypeError : when it is no layer
+    TypeError : it is not a layer
     """
     usual = colour(layer)
     function, _ = _KINDS[type(layer)]
     usual = {"color": usual, "label": in_legends(layer.name)}
+    if isinstance(layer, Ellipses):
+        usual["label"] = with_level(usual["label"])
     if layer.name in DASHES and type(layer) in _OF_LINES:
         usual["linestyle"] = DASHES[layer.name]
     artists = function(ax, layer, usual | style)
@@ -48,12 +51,17 @@ def draw(ax, layer, **style):
     return artists
 
 
+def with_level(name):
+    """Return the legend entry of confidence ellipses with their level."""
+    return name if LEVEL in name else f"{name}: {LEVEL} confidence ellipse"
+
+
 def colour(layer):
-    """Default colour of a layer: that of its name, else that of its kind.
+    """Return the default colour for a layer's name or kind.
 
     Parameters
     ----------
-    layer : a layer of :mod:`slamlab.layers`
+    layer : of :mod:`slamlab.layers`
 
     Returns
     -------
@@ -61,7 +69,7 @@ def colour(layer):
 
     Raises
     ------
-    TypeError : when it is no layer
+    TypeError : it is not a layer
     """
     if type(layer) not in _KINDS:
         raise TypeError(f"cannot draw {type(layer).__name__}: expected a layer of slamlab.layers")
@@ -70,13 +78,12 @@ def colour(layer):
 
 
 def side_by_side(layers_by_title, size=(11, 5), shared=True):
-    """Maps side by side for comparison, such as that of odometry alone beside a corrected one.
+    """Draw maps side by side, such as odometry alone and the estimate.
 
     Parameters
     ----------
-    layers_by_title : dict, title to list of layers, or to dict of what the legend says to layer
-    size : (width, height) of the whole figure [80 pixels of the page]
-    shared : bool, whether all show the same part of the plane
+    layers_by_title : dict, title to list of layers, or to dict of the legend's entry to layer
+    size, shared : as in ``panels``
 
     Returns
     -------
@@ -91,9 +98,33 @@ def side_by_side(layers_by_title, size=(11, 5), shared=True):
     return fig, all_axes
 
 
+def overlay(first, second, pairs=None, title=None, size=(5, 3.8)):
+    """Draw two scans with lines between correspondences.
+
+    Parameters
+    ----------
+    first : (m, 2) reference scan [m]
+    second : (n, 2) scan aligned with it [m]
+    pairs : (k, 2) int, correspondences: rows of second and of first, or None
+    title, size : as in ``axes``
+
+    Returns
+    -------
+    (Figure, Axes)
+    """
+    fig, ax = axes(title, size)
+    if pairs is not None:
+        lines = np.hstack([second[pairs[:, 0]], first[pairs[:, 1]]])
+        draw(ax, Segments("correspondences", lines), linewidth=0.8)
+    draw(ax, Points("map", first), label="first scan", markersize=5)
+    draw(ax, Points("scan", second), label="second scan", markersize=5)
+    legend(ax, loc="upper left")
+    return fig, ax
+
+
 def _points(ax, layer, style):
     xy = np.asarray(layer.xy, dtype=float).reshape(-1, 2)
-    # many points: small, so that what is sharp looks sharp
+    # many points are drawn small, so that sharp walls look sharp
     size = 1.5 if len(xy) > 2000 else 3.0
     if layer.name == "landmark":
         size = LANDMARK_SIZE
@@ -129,11 +160,11 @@ def _poses(ax, layer, style):
 
 
 def _ellipses(ax, layer, style):
-    """Covariance ellipses of 95 %: half axes from eigenvalues, directions from eigenvectors."""
+    """Draw covariance ellipses (95 %)."""
     patches = []
     for centre, covariance in zip(layer.centres, layer.covariances, strict=True):
         variances, directions = np.linalg.eigh(covariance)
-        # rounding may leave a variance a hair below zero
+        # rounding may leave a variance slightly below zero
         width, height = 2 * SIGMAS_95 * np.sqrt(np.maximum(variances, 0.0))
         angle = np.degrees(np.arctan2(directions[1, 0], directions[0, 0]))
         patches.append(Ellipse(centre, width, height, angle=angle))
@@ -142,21 +173,23 @@ def _ellipses(ax, layer, style):
 
 def _boxes(ax, layer, style):
     rows = np.asarray(layer.rows, dtype=float).reshape(-1, 4)
-    return _outlined(ax, [Rectangle((x0, y0), x1 - x0, y1 - y0) for x0, x1, y0, y1 in rows], style)
+    boxes = [Rectangle((x0, y0), x1 - x0, y1 - y0) for x0, x1, y0, y1 in rows]
+    return _outlined(ax, boxes, style, marker="s")
 
 
-def _outlined(ax, patches, style):
-    """Outlines with one entry in the legend; collections of patches have none of their own."""
+def _outlined(ax, patches, style, marker=None):
+    """Draw outlines, and add the legend entry that collections of patches lack."""
     colour, label = style.pop("color"), style.pop("label")
     outline = {"facecolor": "none", "edgecolor": colour, "linewidth": 1.2} | style
     collection = ax.add_collection(PatchCollection(patches, match_original=False, **outline))
-    dash = style.get("linestyle", "solid")
-    return [collection, *ax.plot([], [], color=colour, label=label, linestyle=dash)]
+    entry = {"linestyle": style.get("linestyle", "solid"), "marker": marker}
+    entry |= {"markersize": 8, "markerfacecolor": "white"}  # distinguishes boxes from ellipses
+    return [collection, *ax.plot([], [], color=colour, label=label, **entry)]
 
 
-def _samples(ax, layer, style):
+def _particles(ax, layer, style):
     rows, weights = np.asarray(layer.rows, dtype=float), np.asarray(layer.weights, dtype=float)
-    # the mean sample is as large as a dot of a scan; zero weight would vanish
+    # a particle of mean weight is as large as a point of a scan; weight 0 stays visible
     areas = 2.0 + 6.0 * weights * len(weights)
     return [
         ax.scatter(rows[:, 0], rows[:, 1], s=areas, **({"linewidths": 0, "alpha": 0.8} | style))
@@ -164,7 +197,7 @@ def _samples(ax, layer, style):
 
 
 def _grid(ax, layer, style):
-    """Occupancy grid: free cells white, unknown ones grey, occupied ones in the layer's colour."""
+    """Draw an occupancy grid with free cells white and unknown cells grey."""
     p, side = _downsampled(np.asarray(layer.cells, dtype=float), layer.side)
     colour, label = style.pop("color"), style.pop("label")
     towards = np.where(p[..., None] > 0.5, to_rgb(colour), 1.0)
@@ -181,7 +214,7 @@ def _grid(ax, layer, style):
 
 
 def _downsampled(p, side):
-    """Downsample a grid (max pooling) that has too many cells to see: occupied stays occupied."""
+    """Downsample by max pooling: occupied cells stay occupied."""
     k = max(1, -(-max(p.shape) // MAX_CELLS))
     rows, columns = (-(-n // k) * k for n in p.shape)
     padded = np.full((rows, columns), 0.5)
@@ -198,7 +231,7 @@ _KINDS = {
     Poses: (_poses, "corrected"),
     Ellipses: (_ellipses, "landmark"),
     Boxes: (_boxes, "box"),
-    Samples: (_samples, "sample"),
+    Particles: (_particles, "sample"),
     Grid: (_grid, "map"),
 }
 _OF_LINES = (Segments, Poses, Ellipses, Boxes)

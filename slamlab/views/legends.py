@@ -1,13 +1,13 @@
-"""Legends: enlarged markers, one below all panels, or where in the axes nothing is covered."""
+"""Legend placement below the panels or where the legend covers no data; enlarged markers."""
 
 from matplotlib.collections import PathCollection
 from matplotlib.lines import Line2D
 
-from slamlab.views.covering import lying_in
+from slamlab.views.occlusion import labels_within
 
-SAMPLE = 25.0  # of a sample in a legend, whatever their weights are [pt²]
-LEAST = 9.0  # of a legend's letters [pt]
-# where in the axes a legend is tried, in this order
+PARTICLE_SIZE = 25.0  # of a particle in a legend, whatever its weight [pt²]
+MIN_FONT_SIZE = 9.0  # of a legend [pt]
+# positions tried for a legend, in this order
 CORNERS = [
     "upper right",
     "upper left",
@@ -22,32 +22,30 @@ CORNERS = [
 
 
 def legend(ax, **style):
-    """Legend with enlarged markers, so that the small points of a map can be seen.
-
-    When the figure is shown it moves to where it covers nothing: a free corner, or below.
+    """Add a legend with enlarged markers; when shown, it moves off the data.
 
     Parameters
     ----------
     ax : Axes
-    style : what matplotlib's legend takes, such as ``loc``
+    style : as matplotlib's legend takes it
 
     Returns
     -------
     Legend
     """
-    made = ax.legend(**{"fontsize": LEAST} | style)
-    # inside the axes it needs no room of its own, beside them it does
+    made = ax.legend(**{"fontsize": MIN_FONT_SIZE} | style)
+    # the layout makes room only for a legend beside the axes
     made.set_in_layout("bbox_to_anchor" in style)
     _enlarge(made)
     return made
 
 
 def legend_below(fig, title=None):
-    """Legend of all panels below them, where it covers nothing; one entry a label, made anew.
+    """Add one legend below the panels for all of them; it replaces earlier legends there.
 
     Parameters
     ----------
-    fig : Figure, laid out by constraints, as all figures of the course
+    fig : Figure with constrained layout
     title : str or None
 
     Returns
@@ -73,16 +71,7 @@ def legend_below(fig, title=None):
 
 
 def make_room(fig):
-    """Move the legends that cover data: each to a free place in its axes, else all below them.
-
-    Parameters
-    ----------
-    fig : Figure, laid out
-
-    Returns
-    -------
-    bool, whether the figure is to be laid out anew, for a legend below it
-    """
+    """Move legends off the data, or put one below all panels; return True in the latter case."""
     legends = {ax: ax.get_legend() for ax in fig.axes if ax.get_legend() is not None}
     if all(_finds_room(ax, each) for ax, each in legends.items()):
         return False
@@ -94,22 +83,20 @@ def make_room(fig):
 
 
 def _finds_room(ax, legend):
-    """Whether a legend covers nothing, where it stands or in a corner that it was moved to."""
     room, box = ax.get_window_extent(), legend.get_window_extent()
-    if legend.get_bbox_to_anchor().bounds != ax.bbox.bounds:  # it is to stand beside the axes
-        return box.x1 <= ax.figure.bbox.x1 and not any(lying_in(ax, box))
+    if legend.get_bbox_to_anchor().bounds != ax.bbox.bounds:  # it is beside the axes
+        return box.x1 <= ax.figure.bbox.x1 and not any(labels_within(ax, box))
     if box.width > room.width or box.height > room.height:
         return False
     for corner in (None, *CORNERS):
         if corner is not None:
             legend.set_loc(corner)
-        if not any(lying_in(ax, legend.get_window_extent())):
+        if not any(labels_within(ax, legend.get_window_extent())):
             return True
     return False
 
 
 def _columns(fig, entries):
-    """As many columns as have room, and as few as the rows need, so that rows are even."""
     letters = max(map(len, entries), default=1)
     wide = 0.075 * letters + 0.55  # [inches] of an entry, about
     most = max(1, int(fig.get_figwidth() / wide))
@@ -122,4 +109,4 @@ def _enlarge(legend):
         if isinstance(handle, Line2D) and handle.get_marker() == ".":
             handle.set_markersize(8)
         elif isinstance(handle, PathCollection):
-            handle.set_sizes([SAMPLE])
+            handle.set_sizes([PARTICLE_SIZE])

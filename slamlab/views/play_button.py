@@ -1,35 +1,29 @@
-"""Play button (animation): moves a slider by itself, in the kernel, one frame a step."""
+"""Play button (animation): the kernel advances a slider."""
 
 import asyncio
 from time import monotonic
 
-import ipywidgets
+from slamlab.extras import needs
 
-FRAME_PERIOD = 0.25  # [s] from one frame to the next, where drawing is no slower
-MIN_PAUSE = 0.05  # [s] left to the kernel between two frames, to hear of a second press
+with needs("notebook"):
+    import ipywidgets
 
-_playing = None  # the one player that runs: a cell that is run again leaves none behind
+FRAME_PERIOD = 0.25  # [s] between two frames, unless drawing is slower
+MIN_PAUSE = 0.05  # [s] between two frames, in which the kernel handles a second press
+
+_playing = None  # the one player that runs
 
 
 class Player:
-    """Play button of a slider: pressed, the slider steps to its end; pressed again, it pauses.
-
-    Each step waits until the one before is drawn, so nothing piles up behind a slow drawing.
-
-    Parameters
-    ----------
-    slider : of ipywidgets, whose observers draw
-
-    Raises
-    ------
-    ValueError : when it is no slider
+    """Play button of a slider; each step waits until the previous one is drawn. ValueError: the
+    widget is not a slider.
     """
 
     def __init__(self, slider):
         if not all(slider.has_trait(name) for name in ("min", "max", "step")):
-            raise ValueError("play: only a slider can be played, name one of them")
+            raise ValueError("play: only a slider can be played. Name a slider")
         self.slider = slider
-        self.button = ipywidgets.Button(tooltip="move the slider by itself")
+        self.button = ipywidgets.Button(tooltip="Move the slider automatically")
         self.button.on_click(self._pressed)
         self._task = None
         self._stop()
@@ -47,8 +41,8 @@ class Player:
         self._task = asyncio.get_running_loop().create_task(self._run())
 
     async def _run(self):
-        # JupyterLab may run buttons and cells in two threads, and a task is cancelled safely only
-        # from its own: so it asks whether it is still the one that plays
+        # JupyterLab may run buttons and cells in two threads, and a task can be cancelled safely
+        # only from its own thread: so it checks whether it is still the current task
         mine, slider = asyncio.current_task(), self.slider
         if slider.value >= slider.max:
             slider.value = slider.min
@@ -69,6 +63,5 @@ class Player:
 
 
 def stop():
-    """Stop the animation that plays; harmless when none does."""
     if _playing is not None:
         _playing._stop()

@@ -1,4 +1,4 @@
-"""Process diagram (data flow): what is measured, what works on it, what is kept and what is not."""
+"""Process diagram: boxes and data flow."""
 
 from dataclasses import dataclass
 
@@ -9,9 +9,9 @@ from slamlab.views.colours import COLOURS
 from slamlab.views.figures import empty
 from slamlab.views.legends import legend_below
 
-PAD = 0.06  # round the corners of a box [80 pixels of the page]
-LETTERS = 10  # [pt]
-# what a box is: its frame, how it is drawn, its ground, what the legend says
+PAD = 0.06  # rounding of a box's corners [80 pixels of the page]
+FONT_SIZE = 10  # [pt]
+# kind of a box: frame colour, line style, background, legend entry
 KINDS = {
     "device": (COLOURS["scan"], "solid", "#FFF6E0", "device"),
     "step": (COLOURS["truth"], "solid", "#FFFFFF", "function"),
@@ -28,8 +28,8 @@ class Box:
     ----------
     kind : str, one of KINDS
     text : str, in lines
-    x, y : float, of its middle, counted from the lower left [80 pixels of the page]
-    width, height : float [80 pixels of the page]
+    x, y : float, centre, from the lower left [80 pixels]
+    width, height : float [80 pixels]
     """
 
     kind: str
@@ -40,19 +40,18 @@ class Box:
     height: float = 0.7
 
     def reach(self, axis):
-        """(low, high) along axis 0 or 1."""
         middle, size = ((self.x, self.width), (self.y, self.height))[axis]
         return middle - size / 2, middle + size / 2
 
 
 def process(boxes, flows, size=(11, 5)):
-    """Draw a process diagram; arrows are straight from box to box where one faces the other.
+    """Draw a process diagram; arrows are straight between boxes that face each other.
 
     Parameters
     ----------
     boxes : dict, name to Box
-    flows : list of (from, to, text); a name with "=" before it is both read and written
-    size : (width, height) [80 pixels of the page]
+    flows : list of (from, to, text); "=" before a name marks a box that is read and written
+    size : as in ``axes``
 
     Returns
     -------
@@ -71,13 +70,13 @@ def process(boxes, flows, size=(11, 5)):
 
 
 def _draw_box(ax, box):
-    frame, dash, ground, says = KINDS[box.kind]
+    frame, dash, background, label = KINDS[box.kind]
     corner = box.x - box.width / 2 + PAD, box.y - box.height / 2 + PAD
     sides = box.width - 2 * PAD, box.height - 2 * PAD
-    style = {"boxstyle": f"round,pad={PAD}", "edgecolor": frame, "facecolor": ground}
-    style |= {"linestyle": dash, "linewidth": 1.8, "label": says}
+    style = {"boxstyle": f"round,pad={PAD}", "edgecolor": frame, "facecolor": background}
+    style |= {"linestyle": dash, "linewidth": 1.8, "label": label}
     ax.add_patch(FancyBboxPatch(corner, *sides, **style))
-    ax.text(box.x, box.y, box.text, ha="center", va="center", fontsize=LETTERS, linespacing=1.25)
+    ax.text(box.x, box.y, box.text, ha="center", va="center", fontsize=FONT_SIZE, linespacing=1.25)
 
 
 def _draw_flow(ax, a, b, text, both):
@@ -87,11 +86,10 @@ def _draw_flow(ax, a, b, text, both):
     upright = abs(end[0] - start[0]) < abs(end[1] - start[1])
     at = (np.add(start, end) / 2) + ((0.15, 0) if upright else (0, 0.06))
     sides = ("left", "center") if upright else ("center", "bottom")
-    ax.text(*at, text, ha=sides[0], va=sides[1], fontsize=LETTERS, linespacing=1.15)
+    ax.text(*at, text, ha=sides[0], va=sides[1], fontsize=FONT_SIZE, linespacing=1.15)
 
 
 def _ends(a, b):
-    """Where an arrow begins and ends: level or upright where a line is both boxes' to cross."""
     start, end = np.empty(2), np.empty(2)
     for axis in (0, 1):
         (low, high), (least, most) = a.reach(axis), b.reach(axis)

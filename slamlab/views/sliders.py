@@ -1,44 +1,44 @@
-"""Interactive figure: sliders and other controls that redraw a plot (explore)."""
+"""Interactive figures: sliders and other controls redraw a plot."""
 
 import html
 import traceback
 from math import ceil, log10
 
-import ipywidgets
-
-from slamlab.displays import grouped, show_bundle, show_controls
-from slamlab.views import play_button
-from slamlab.views.showing import bundle
+from slamlab.extras import needs
+from slamlab.views.figure_display import bundle
+from slamlab.views.notebook_output import grouped, show_bundle, show_controls
 
 
 def explore(draw, alt, play=None, **controls):
-    """Interactive figure: show a plot with sliders, choices and tick boxes that redraw it.
+    """Show a figure with sliders, dropdowns and check boxes that redraw it (interactive figure).
 
-    The first view is drawn at once, so that a mistake in ``draw`` surfaces as any other. The figure
-    is a display of its own below the controls: a notebook that is saved keeps the view last shown.
-    A later mistake is shown in place of the figure. Calling this stops whatever plays, so that a
-    cell can be run again.
+    A running animation stops. An error after the first drawing is shown in place of the figure.
 
     Parameters
     ----------
     draw : (values of the controls by name) -> Figure
-    alt : str, or (values by name) -> str, what the figure shows
-    play : str or None, name of a slider that gets a button which moves it from where it stands to
-        its end, a step a picture
-    controls : by name of draw's argument, in order: a widget of ipywidgets, or
-        ``(low, high, first)`` for a slider, whole-numbered when all three are int;
-        a list for a choice, its first entry first; a bool for a tick box
+    alt : str, or (values by name) -> str, description of the figure
+    play : str or None, name of a slider that gets a play button
+    controls : by name of draw's argument: ``(low, high, initial)`` for a slider, of integers when
+        all are int; a list for a dropdown, whose first entry is initial; a bool for a check box;
+        or a widget of ipywidgets
 
     Raises
     ------
-    ValueError : when a control is none of these, or ``play`` names no slider
+    ValueError : a control has another type, or ``play`` does not name a slider
     """
+    with needs("notebook"):
+        import ipywidgets
+
+        from slamlab.views import play_button  # not needed by a worker or a script
     play_button.stop()
     widgets = {name: _control(name, given) for name, given in controls.items()}
     buttons = []
     if play is not None:
         if play not in widgets:
-            raise ValueError(f"play: no control is called {play!r}, only {', '.join(widgets)}")
+            raise ValueError(
+                f"play: there is no control {play!r}. The controls are {', '.join(widgets)}"
+            )
         buttons.append(play_button.Player(widgets[play]).button)
 
     def drawn():
@@ -49,9 +49,9 @@ def explore(draw, alt, play=None, **controls):
         try:
             shown = drawn()
         except Exception:
-            # a callback has no cell to fail in
+            # a callback has no cell that could show the error
             play_button.stop()
-            shown = _trouble(traceback.format_exc(limit=-2))
+            shown = _error_bundle(traceback.format_exc(limit=-2))
         figure.update(shown, raw=True)
 
     first = drawn()
@@ -62,9 +62,11 @@ def explore(draw, alt, play=None, **controls):
 
 
 def _control(name, given):
+    with needs("notebook"):
+        import ipywidgets
     if isinstance(given, ipywidgets.ValueWidget):
         if given.has_trait("continuous_update"):
-            # one drawing per let-go: nothing piles up behind a slow one
+            # one drawing when the control is released, so that drawings do not queue up
             given.continuous_update = False
         given.style = {"description_width": "initial"}
         return given
@@ -81,7 +83,7 @@ def _control(name, given):
         slider = ipywidgets.IntSlider if whole else ipywidgets.FloatSlider
         low, high, first = given
         step = 1 if whole else (high - low) / 100
-        # as many decimals as tell one step from the next
+        # enough decimals to distinguish two steps
         decimals = max(2, ceil(-log10(step))) if step else 2
         return slider(
             min=low,
@@ -95,9 +97,9 @@ def _control(name, given):
             continuous_update=False,
         )
     raise ValueError(
-        f"{name}: expected (low, high, first), a list, a bool or a widget, got {given!r}"
+        f"{name}: expected (low, high, initial), a list, a bool or a widget, got {given!r}"
     )
 
 
-def _trouble(text):
+def _error_bundle(text):
     return {"text/html": f"<pre>{html.escape(text)}</pre>", "text/plain": text}

@@ -16,9 +16,9 @@
       const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
       const player = await showFilm(place, bytes, theme());
       if (!player) return;
-      const wear = () => player.picture.wear(theme());
-      scheme.addEventListener("change", wear);
-      new MutationObserver(wear).observe(document.body, { attributeFilter: ["data-theme"] });
+      const applyTheme = () => player.picture.applyTheme(theme());
+      scheme.addEventListener("change", applyTheme);
+      new MutationObserver(applyTheme).observe(document.body, { attributeFilter: ["data-theme"] });
     });
     const script = document.createElement("script");
     script.src = folder + file;

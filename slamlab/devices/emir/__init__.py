@@ -1,11 +1,10 @@
-"""eMIR driver: the faculty's wheeled robot, its text protocol and wheel odometry.
+"""eMIR driver: text protocol and wheel odometry of the faculty's robot.
 
 Read in this order:
 
-- ``frames``: text frames with a checksum; ``commands``, ``status``: what they hold
-- ``wheel_odometry``: counters unwrapped to a pose; ``receiver``: frames to status and odometry
-- ``session``: one connection, with its keep-alive; ``driver``: Emir, with its watchdog
-- ``calibration_drive``: a metre and four quarter turns, to be measured by hand
+- ``frames`` (framing, checksum), ``commands``, ``status``: the protocol
+- ``wheel_odometry``: pose from encoder counters; ``receiver``: status and odometry from frames
+- ``session``: one connection, watchdog; ``driver``: Emir; ``emir_calibration``: calibration run
 """
 
 from slamlab.devices.emir.driver import Emir

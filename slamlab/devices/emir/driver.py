@@ -1,4 +1,4 @@
-"""eMIR driver: connect, drive, wheel odometry, command watchdog, reconnect, stop on close."""
+"""eMIR driver: commands, wheel odometry, command watchdog, automatic reconnection."""
 
 import threading
 from collections import Counter
@@ -8,33 +8,29 @@ from slamlab.devices.emir import commands
 from slamlab.devices.emir.session import Session
 from slamlab.devices.emir.wheel_odometry import Calibration, Odometry
 from slamlab.devices.errors import ConnectionLost, SlamlabError
-from slamlab.devices.reader_thread import ReaderThread, backoff
-from slamlab.devices.shutdown import close_at_exit
+from slamlab.devices.reader_thread import ReaderThread
+from slamlab.devices.reconnection import backoff
+from slamlab.devices.serial_ports import split_baud
+from slamlab.devices.shutdown import Closeable, close_at_exit
 from slamlab.devices.transport import open_port
 
 BAUD = 57600  # baud rate of the robot [bit/s]
-WATCHDOG_TIMEOUT = 2.0  # command watchdog: a motion that is not renewed for so long ends [s]
+WATCHDOG_TIMEOUT = 2.0  # of the command watchdog: a motion that is not renewed ends [s]
 
 
-class Emir:
-    """Driver of an eMIR on a port; connects at once, then reads its status all the time.
-
-    One thread reads, integrates odometry (dead reckoning), and repeats the last command five times
-    a second (keep-alive): a lost one does no harm, and a robot that stops without commands drives
-    on. A command watchdog stops it for a program that has forgotten it: a motion not asked for
-    longer than ``watchdog``, by :meth:`move`, :meth:`drive` or :meth:`renew`, ends. Whoever takes
-    readings of :class:`LiveDevices` renews it.
+class Emir(Closeable):
+    """Driver of an eMIR; its thread reads statuses and repeats the last command (keep-alive).
 
     Parameters
     ----------
-    port : str, such as /dev/rfcomm0, COM4, socket://HOST:PORT
-    baud : int, baud rate [bit/s]
+    port : str, such as /dev/rfcomm0, COM4, socket://HOST:PORT; a baud rate can be appended, as in
+        /dev/ttyUSB0@9600
+    baud : int [bit/s]
     calibration : Calibration
-    saturates : bool, whether its counters stop at ±128 instead of running over; they are then set
-        back in time
-    watchdog : float, timeout after which a motion that is not renewed ends [s], or None: never
-    reconnect : bool, whether to reconnect, with back-off, after a lost connection; the robot then
-        stands, and its way meanwhile is what its counters tell
+    saturates : bool, whether the encoder counters saturate at ±128 instead of wrapping around
+    watchdog : float, timeout after which a motion ends if :meth:`move`, :meth:`drive` or
+        :meth:`renew` is not called [s]; None: no watchdog
+    reconnect : bool, whether to reconnect after a lost connection; the robot is then at rest
     opener : callable(port, baud) -> Transport
     clock : Clock
 
@@ -54,14 +50,17 @@ class Emir:
         opener=open_port,
         clock=None,
     ):
-        self.name, self.clock, self.reconnect = port, clock or Clock(), reconnect
+        self.name, named_baud = split_baud(port)
+        self.clock, self.reconnect = clock or Clock(), reconnect
         self.odometry = Odometry(calibration or Calibration(), saturates)
         self.error, self._closed = None, False
         self._counts, self._status_changed = Counter(), threading.Condition()
-        arguments = port, baud, self.odometry, watchdog, opener, self.clock
+        arguments = (self.name, named_baud or baud, self.odometry, watchdog, opener, self.clock)
         self._open_session = lambda: Session(*arguments)
         self._session = self._open_session()
-        self._reader = ReaderThread(self._step, f"reads {port}", self._on_reader_end, self.clock)
+        self._reader = ReaderThread(
+            self._step, f"reads {self.name}", self._on_reader_end, self.clock
+        )
         self._reader.start()
         close_at_exit(self)
 
@@ -72,89 +71,61 @@ class Emir:
 
     @property
     def calibration(self):
-        """Calibration of the odometry."""
         return self.odometry.calibration
 
     @property
     def pose(self):
-        """Odometry pose now (dead reckoning), (3,), from where it was opened [m, m, rad]."""
+        """Current odometry pose (dead reckoning), (3,), relative to the start [m, m, rad]."""
         return self.pose_at(self.clock.now())
 
     def pose_at(self, time):
-        """Odometry pose at a time: see :meth:`Odometry.pose_at`."""
+        """See :meth:`Odometry.pose_at`."""
         return self.odometry.pose_at(time)
 
     @property
     def stats(self):
-        """Statistics: dict of frames received and lost; ``forgotten`` are stops by the watchdog."""
+        """Numbers of frames, invalid frames, dropped bytes, watchdog stops and reconnections."""
         counts = self._counts + _counts(self._session)
-        names = "frames", "bad frames", "bytes dropped", "forgotten", "reconnects"
+        names = "frames", "bad frames", "bytes dropped", "watchdog stops", "reconnects"
         return {name: counts[name] for name in names}
 
     def move(self, v, omega):
-        """Drive with a speed and turn rate in percent, until the next command or the watchdog.
+        """Drive at a speed and a turn rate from −100 to 100 [%].
 
-        Parameters
-        ----------
-        v, omega : float, speed and turn rate, −100 to 100 [%]
-
-        Raises
-        ------
-        ConnectionLost
+        A new command or the watchdog ends the motion. Raises ConnectionLost, like all commands.
         """
         self._connected.move(commands.move(v, omega), repeated=True)
 
     def drive(self, v, omega):
-        """Drive with a speed and turn rate in SI units, as :meth:`move` does.
-
-        Parameters
-        ----------
-        v, omega : float, speed and turn rate, by this robot's calibration [m/s, rad/s]
-
-        Raises
-        ------
-        ConnectionLost
-        """
+        """Drive like :meth:`move`, but with speed and turn rate in SI units [m/s, rad/s]."""
         self.move(*self.calibration.percent(v, omega))
 
     def renew(self):
-        """Renew the command watchdog (keep-alive): the present motion may go on."""
+        """Renew the command watchdog so that the motion continues."""
         self._session.renew()
 
     def stop(self):
-        """Stop the robot."""
         self._connected.move(commands.stop(), repeated=True)
 
-    def translate(self, way, speed=50):
-        """Drive a distance and stop: see :func:`commands.translate`; does not wait for it."""
-        self._connected.move(commands.translate(way, speed), repeated=False)
+    def translate(self, distance, speed=50):
+        """Drive a distance [m], then stop; return at once, before the motion has ended."""
+        self._connected.move(commands.translate(distance, speed), repeated=False)
 
     def rotate(self, degrees, speed=50):
-        """Rotate by an angle and stop: see :func:`commands.rotate`; does not wait for it."""
+        """Rotate by an angle [degree], then stop; return at once, before the motion has ended."""
         self._connected.move(commands.rotate(degrees, speed), repeated=False)
 
     def beep(self, seconds=0.2):
-        """Beep [s]."""
         self._connected.send(commands.beep(seconds))
 
     def reset(self):
-        """Reset the counters to 0; the odometry pose goes on, no way is lost."""
+        """Set the encoder counters to 0; the odometry pose does not change."""
         self._connected.send(commands.reset_counters())
 
     def wait(self, timeout=1.0):
-        """Wait for the next status.
+        """Return the next Status, or None after the timeout [s] or if the driver is closed.
 
-        Parameters
-        ----------
-        timeout : float [s]
-
-        Returns
-        -------
-        Status, or None when none came or it was closed
-
-        Raises
-        ------
-        ConnectionLost
+        Raises ConnectionLost.
         """
         with self._status_changed:
             seen = self._counts["frames"]
@@ -168,28 +139,20 @@ class Emir:
             return self.status if over and not self._closed else None
 
     def close(self):
-        """Stop the robot and close the port; may be called again."""
+        """Stop the robot and close the port; repeated calls are safe."""
         self._closed = True
         self._session.close()
         self._reader.stop()
-        self._session.close()  # of one that came back meanwhile
+        self._session.close()  # a session that was reconnected meanwhile
         self._on_reader_end(None)
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *exc):
-        self.close()
 
     @property
     def _connected(self):
-        """Session, unless its connection is lost: then the error is raised."""
         if self.error is not None:
             raise self.error
         return self._session
 
     def _step(self, stopping):
-        """One step of the reader thread."""
         try:
             count = self._session.step()
         except ConnectionLost:
@@ -202,7 +165,7 @@ class Emir:
             self._status_changed.notify_all()
 
     def _reconnect(self, stopping):
-        """Reconnect with exponential back-off, until it is back or the driver is closed."""
+        """Reconnect after a loss of the connection, with exponential back-off."""
         self._session.close()
         for _ in backoff(self.clock, stopping):
             self.odometry.expect_gap()
@@ -224,4 +187,4 @@ class Emir:
 
 
 def _counts(session):
-    return session.receiver.damage + Counter(forgotten=session.watchdog_stops)
+    return session.receiver.damage + Counter({"watchdog stops": session.watchdog_stops})

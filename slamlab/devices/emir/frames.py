@@ -1,7 +1,7 @@
-"""Framing of eMIR's protocol: bytes as hexadecimal digits between two marks, with a checksum.
+"""Framing of eMIR's protocol: hexadecimal digits between a start and an end mark, with a checksum.
 
-To the robot ``#OOAABBCC/``: opcode, two arguments, checksum; from it ``*``, 17 bytes, ``/``. All
-bytes of a frame, its checksum too, add up to 0 modulo 256.
+A frame to the robot is ``#OOAABBCC/``: opcode, two arguments and checksum. A frame from the robot
+is ``*``, 17 bytes and ``/``.
 """
 
 import re
@@ -13,45 +13,17 @@ END = b"/"  # end mark
 
 
 def checksum(data):
-    """Checksum of a frame, the byte that makes the sum 0: (−Σ) mod 256.
-
-    Equation (14.6).
-
-    Parameters
-    ----------
-    data : bytes
-
-    Returns
-    -------
-    int
-    """
+    """Return the checksum −Σ mod 256, so that a frame's sum is 0 mod 256. Equation (14.6)."""
     return -sum(data) % 256
 
 
 def frame(data, mark=COMMAND):
-    """Encode bytes as a frame, with marks and checksum.
-
-    Parameters
-    ----------
-    data : bytes
-    mark : bytes, COMMAND or STATUS
-
-    Returns
-    -------
-    bytes
-    """
+    """Encode a frame with start mark, data, checksum and end mark."""
     return mark + (data + bytes([checksum(data)])).hex().upper().encode() + END
 
 
 class Framer:
-    """Framer: finds frames in a byte stream and checks their checksum; any cut gives the same.
-
-    Parameters
-    ----------
-    mark : bytes, COMMAND or STATUS
-
-    ``damage`` counts ``bad frames`` and ``bytes dropped``.
-    """
+    """Framer: finds frames in a byte stream, verifies their checksums and counts ``damage``."""
 
     def __init__(self, mark=STATUS):
         digits = 2 * LENGTHS[mark]
@@ -61,16 +33,7 @@ class Framer:
         self.damage: Counter[str] = Counter()
 
     def feed(self, data):
-        """Search bytes as they come.
-
-        Parameters
-        ----------
-        data : bytes
-
-        Returns
-        -------
-        list of bytes, a frame's each, without its checksum
-        """
+        """Parse bytes; return the data, without the checksum, of each complete and valid frame."""
         self._buffer += data
         found, at = [], 0
         while True:
@@ -86,7 +49,7 @@ class Framer:
             if sum(content) % 256:
                 self.damage["bad frames"] += 1
                 self.damage["bytes dropped"] += 1
-                at += 1  # a good one may begin within
+                at += 1  # resynchronise: a valid frame may begin inside it
             else:
                 found.append(content[:-1])
                 at += self._size

@@ -1,4 +1,4 @@
-"""Receiver of eMIR's status frames, live or from a recording, which updates the wheel odometry."""
+"""Receiver that decodes live or recorded status frames of eMIR, and updates its odometry."""
 
 from collections import Counter
 
@@ -10,15 +10,7 @@ STATUS_BITS = 36 * 10  # of a status frame on the line
 
 
 class EmirReceiver:
-    """Receiver of the bytes from and to an eMIR; knows no port.
-
-    Parameters
-    ----------
-    odometry : Odometry, advanced by every status
-    baud : int [bit/s]
-
-    ``status`` is the last one, None at first; ``damage`` counts as a Framer's.
-    """
+    """Receiver that processes the bytes from and to an eMIR without a port; updates an Odometry."""
 
     def __init__(self, odometry, baud):
         self.odometry, self.status = odometry, None
@@ -27,21 +19,10 @@ class EmirReceiver:
 
     @property
     def damage(self):
-        """Statistics of damaged frames: Counter, see :class:`Framer`."""
         return Counter(self._status_framer.damage)
 
     def received(self, data, now):
-        """Decode what the robot sent into statuses and odometry.
-
-        Parameters
-        ----------
-        data : bytes
-        now : float, when the last of them was there [s]
-
-        Returns
-        -------
-        int, how many statuses that were
-        """
+        """Decode bytes that the robot sent until ``now`` [s]; return the number of statuses."""
         frames = self._status_framer.feed(data)
         for content in frames:
             self.status = Status.unpack(content)
@@ -49,12 +30,7 @@ class EmirReceiver:
         return len(frames)
 
     def sent(self, data):
-        """Note what was sent to the robot: it may reset its counters.
-
-        Parameters
-        ----------
-        data : bytes
-        """
+        """Process bytes sent to the robot: a command among them can reset the counters."""
         for opcode, _, _ in self._command_framer.feed(data):
             if opcode == commands.RESET_COUNTERS:
                 self.odometry.expect_reset()

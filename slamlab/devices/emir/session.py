@@ -1,4 +1,4 @@
-"""One connection (session) with an eMIR: handshake, commands, keep-alive, watchdog, timeouts."""
+"""One connection with an eMIR: handshake, keep-alive, command watchdog, receive timeout."""
 
 import contextlib
 import logging
@@ -7,35 +7,22 @@ import threading
 from slamlab.devices.emir import commands
 from slamlab.devices.emir.receiver import EmirReceiver
 from slamlab.devices.errors import ConnectionLost, DeviceNotResponding, DeviceSilent, SlamlabError
-from slamlab.devices.receive_timeout import ReceiveTimer
+from slamlab.devices.reader_thread import ReceiveTimer
 
 REPEAT_PERIOD = 0.2  # of the last command, as a keep-alive [s]
 READ_TIMEOUT = 0.05  # of one read by the reader thread [s]
 FIRST_STATUS_TIMEOUT = 2.0  # for the first status, in the handshake [s]
-ASK_AGAIN = 0.4  # without a status after which the stream is requested again [s]
-RECEIVE_TIMEOUT = 0.9  # without a status after which the connection counts as lost [s]
+REQUEST_PERIOD = 0.4  # without a status, after which the stream is requested again [s]
+RECEIVE_TIMEOUT = 0.9  # without a status, after which the connection counts as lost [s]
 STOP_FRAMES = commands.stop(), commands.move(0, 0)  # commands of standstill: no watchdog
 
 log = logging.getLogger(__name__)
 
 
 class Session:
-    """Session: an open port with an eMIR that stands still and sends its status.
+    """An open port to an eMIR that is at rest and sends statuses; arguments as in :class:`Emir`.
 
-    Parameters
-    ----------
-    name : str, of the port
-    baud : int [bit/s]
-    odometry : Odometry, advanced by what is heard
-    watchdog : float, timeout after which a motion that is not renewed ends [s], or None: never
-    opener : callable(name, baud) -> Transport
-    clock : Clock
-
-    ``watchdog_stops`` counts how often that stopped it.
-
-    Raises
-    ------
-    PortError, DeviceNotResponding, ConnectionLost
+    Raises PortError, DeviceNotResponding, ConnectionLost.
     """
 
     def __init__(self, name, baud, odometry, watchdog, opener, clock):
@@ -55,63 +42,37 @@ class Session:
             raise
 
     def send(self, frame):
-        """Send a command that leaves its motion as it is.
-
-        Parameters
-        ----------
-        frame : bytes
-
-        Raises
-        ------
-        ConnectionLost
-        """
+        """Send a command that does not change the motion. Raises ConnectionLost."""
         with self._writing:
             if self._closed:
                 raise ConnectionLost(
                     f"eMIR on {self.name} is closed",
-                    "it was closed, or it was lost and not yet found again",
-                    "open it anew",
+                    "the program closed the connection, or the lost connection is not restored yet",
+                    "connect to the robot again",
                 )
             self._write(frame)
 
     def move(self, frame, repeated):
-        """Send a motion command and renew the command watchdog.
-
-        Parameters
-        ----------
-        frame : bytes
-        repeated : bool, whether to repeat it (keep-alive), until the next such command
-
-        Raises
-        ------
-        ConnectionLost
-        """
+        """Send a motion command, once or repeatedly, and restart the watchdog timeout."""
         with self._writing:
             self.send(frame)
             self._repeated_frame = frame if repeated else None
             self.renew()
 
     def renew(self):
-        """Renew the command watchdog: the present motion is still wanted."""
         self._renewed = self._clock.now()
 
     def step(self):
-        """Read for a moment; repeat the command, check receive timeout and command watchdog.
+        """Read the port, repeat the command and check both timeouts; return the number of statuses.
 
-        Returns
-        -------
-        int, how many statuses came
-
-        Raises
-        ------
-        ConnectionLost
+        Raises ConnectionLost.
         """
         count, now = self._receive(), self._clock.now()
         if self._receive_timer.elapsed > RECEIVE_TIMEOUT:
             raise DeviceSilent(
                 f"eMIR stopped sending {self._receive_timer.elapsed:.1f} s ago",
-                "it is out of reach, switched off, or its battery is empty",
-                "bring it near, check its battery, then open it anew",
+                "the robot is out of range, is switched off, or has an empty battery",
+                "move the robot closer, check its battery, then connect to it again",
             )
         with self._writing:
             if not self._closed:
@@ -119,27 +80,26 @@ class Session:
         return count
 
     def close(self):
-        """Close the port, after the robot was stopped where it can be; may be repeated."""
+        """Stop the robot and close the port; repeated calls are safe."""
         self._closed = True  # from now on no motion command is sent
         if self._released:
             return
         with self._writing, contextlib.suppress(SlamlabError):
             self._write(commands.move(0, 0), commands.stop(), commands.info(False))
-        self._clock.sleep(0.01)  # until it is sent; by then others may have the lock
+        self._clock.sleep(0.01)  # until the command is sent; other threads may take the lock
         self._port.close()
-        self._released = True  # a signal may have come on the way: then all of it is done again
+        self._released = True  # after an interruption by a signal, close() is repeated
 
     def _maintain(self, now):
-        """Keep status and counters going, repeat the motion command or end it by the watchdog."""
-        if min(self._receive_timer.elapsed, now - self._requested) > ASK_AGAIN:
+        if min(self._receive_timer.elapsed, now - self._requested) > REQUEST_PERIOD:
             self._requested = now
             self._write(commands.info(True))
         if self.receiver.odometry.near_limit:
-            log.info("eMIR's counters are reset before they saturate")
+            log.info("Resetting the counters of eMIR before they saturate.")
             self._write(commands.reset_counters())
         moves = self._repeated_frame is not None and self._repeated_frame not in STOP_FRAMES
         if moves and self._watchdog is not None and now - self._renewed > self._watchdog:
-            log.warning("command watchdog: eMIR is stopped, nobody has renewed its motion")
+            log.warning("The command watchdog stops eMIR because its motion was not renewed.")
             self.watchdog_stops += 1
             self._repeated_frame = commands.stop()
             self._write(self._repeated_frame)
@@ -154,7 +114,7 @@ class Session:
             self._sent = self._clock.now()
 
     def _receive(self):
-        """Read and decode what came; number of statuses."""
+        """Read and decode bytes, and return the number of statuses in them."""
         data, now = self._port.read(4096, READ_TIMEOUT), self._clock.now()
         count = self.receiver.received(data, now)
         self._receive_timer.update(now, count > 0)
@@ -164,7 +124,7 @@ class Session:
         while not self._receive():
             if self._receive_timer.elapsed > FIRST_STATUS_TIMEOUT:
                 raise DeviceNotResponding(
-                    f"no eMIR answers on {self.name}",
-                    "it is switched off, not paired, or this is another device's port",
-                    "switch it on, check the port (Bluetooth: /dev/rfcomm0 or COMx)",
+                    f"no eMIR responds on {self.name}",
+                    "the robot is switched off or unpaired, or the port belongs to another device",
+                    "switch the robot on and check the port (Bluetooth: /dev/rfcomm0 or COMx)",
                 )

@@ -1,4 +1,4 @@
-"""Status frames of eMIR: sensors, battery, counters; six bytes are signed (the thesis: all)."""
+"""Status frames of eMIR; six of their bytes are signed (the thesis states that all are signed)."""
 
 from dataclasses import dataclass
 
@@ -10,19 +10,11 @@ CHARGING = 0x80  # bit of the battery's byte
 
 @dataclass(frozen=True)
 class Status:
-    """Status of the robot as one frame tells it, numbers as they came.
+    """Status of the robot that one frame contains, in raw units.
 
-    Parameters
-    ----------
-    proximity : six int, infrared distances [cm]
-    battery : int, see :attr:`volts` and :attr:`charging`
-    speed, rotation : int, what the robot does [%]
-    left, right : int, of the motors [%]
-    mode : int
-    inputs : int, digital inputs, a bit each
-    azimuth : int, compass [2 degrees]
-    path : int, since the last reset, modulo 256 [about 1 cm]
-    angle : int, since the last reset, modulo 256 [about 2 degrees]
+    ``proximity``: infrared distances [cm]; ``speed``, ``rotation``, ``left``, ``right``: rates of
+    the robot and its motors [%]; ``azimuth``: heading [2 degrees]; ``path`` [about 1 cm], ``angle``
+    [about 2 degrees]: counters modulo 256.
     """
 
     proximity: tuple[int, ...] = (80,) * 6
@@ -39,34 +31,22 @@ class Status:
 
     @classmethod
     def unpack(cls, data):
-        """Decode a status frame's 16 bytes, the checksum taken off.
-
-        Raises
-        ------
-        ValueError
-        """
+        """Decode the 16 bytes of a status; the checksum is not included. Raises ValueError."""
         if len(data) != LENGTHS[STATUS] - 1:
-            raise ValueError(f"a status has {LENGTHS[STATUS] - 1} bytes, not {len(data)}")
+            raise ValueError(f"a status must have {LENGTHS[STATUS] - 1} bytes, not {len(data)}")
         values = [b - 256 if i in SIGNED and b > 127 else b for i, b in enumerate(data)]
         return cls(tuple(values[:6]), *values[6:])
 
     def pack(self):
-        """Encode the status as a frame.
-
-        Returns
-        -------
-        bytes
-        """
         rest = self.battery, self.speed, self.rotation, self.left, self.right, self.mode
         end = self.inputs, self.azimuth, self.path, self.angle
         return frame(bytes(v % 256 for v in (*self.proximity, *rest, *end)), STATUS)
 
     @property
     def volts(self):
-        """Battery voltage [V], float."""
+        """Battery voltage [V]."""
         return 9 + (self.battery & ~CHARGING) / 17
 
     @property
     def charging(self):
-        """Whether the battery is charging, bool."""
         return bool(self.battery & CHARGING)

@@ -1,4 +1,4 @@
-"""Wheel odometry (dead reckoning) from eMIR's two 8-bit tick counters: unwrap, scale, integrate."""
+"""Wheel odometry (dead reckoning) from eMIR's two 8-bit encoder counters."""
 
 from collections import deque
 from dataclasses import dataclass
@@ -8,25 +8,22 @@ import numpy as np
 from slamlab.geometry import between, compose
 from slamlab.simulation.differential_drive import arc
 
-MAX_EXTRAPOLATION = 0.3  # most that a pose is extrapolated beyond the last frame [s]
-POSE_HISTORY = 512  # poses kept for interpolation
-RESET_AT = 64  # count from which on a counter that saturates is reset
-RESET_WINDOW = 10  # values within which a reset shows, or it was lost
+MAX_EXTRAPOLATION = 0.3  # of a pose beyond the last frame [s]
+POSE_HISTORY = 512  # poses for interpolation
+RESET_AT = 64  # count at which a saturating counter is reset
+RESET_WINDOW = 10  # values within which a reset appears; otherwise the command was lost
 
 
 @dataclass(frozen=True)
 class Calibration:
-    """Odometry calibration: metres and radians per count of this robot; measure yours.
-
-    The thesis has 10 mm and 2° a count, another program for the same robots 10.3 mm and 2.14°:
-    7 % in the turn spoil a map.
+    """Odometry calibration of one robot; the defaults are the values of the thesis.
 
     Parameters
     ----------
-    path : float [m] a count
-    angle : float [rad] a count; negative where the robot counts clockwise
-    top_speed : float, at 100 % [m/s]
-    top_turn : float, at 100 %; negative where positive means clockwise [rad/s]
+    path : float, distance per count [m]
+    angle : float, rotation per count; negative if the robot counts clockwise [rad]
+    top_speed : float, speed at 100 % [m/s]
+    top_turn : float, turn rate at 100 %; negative if positive means clockwise [rad/s]
     """
 
     path: float = 0.01
@@ -35,48 +32,31 @@ class Calibration:
     top_turn: float = np.radians(100)
 
     def percent(self, v, omega):
-        """Convert speed and turn rate [m/s, rad/s] to percent of their maximum [%]."""
+        """Convert a speed and a turn rate [m/s, rad/s] to percentages of their maxima."""
         return 100 * v / self.top_speed, 100 * omega / self.top_turn
 
 
 class CounterUnwrapper:
-    """Unwraps a signed 8-bit counter: increments from value to value across its wrap-around.
-
-    Parameters
-    ----------
-    saturates : bool, whether it stops at its end instead of wrapping around
-    """
+    """Unwrapper of a signed 8-bit encoder counter, which can overflow or saturate."""
 
     def __init__(self, saturates=False):
         self.saturates = saturates
         self.restart()
 
     def restart(self):
-        """Restart: the next value is the first."""
         self._last, self._reset_due = None, 0
 
     def expect_reset(self):
-        """Expect a reset to 0, which was commanded; when it comes, nobody knows."""
+        """Expect that a reset command sets the counter to 0 within the next RESET_WINDOW values."""
         self._reset_due = RESET_WINDOW
 
     @property
     def near_limit(self):
-        """Whether it will soon saturate and should be reset: bool."""
+        """Whether the counter is close to saturation and should be reset."""
         return self.saturates and not self._reset_due and abs(self._last or 0) >= RESET_AT
 
     def advance(self, value):
-        """Unwrapped increment since the last value; 0 at the first one.
-
-        Equation (14.7).
-
-        Parameters
-        ----------
-        value : int, −128 to 127
-
-        Returns
-        -------
-        int
-        """
+        """Return the unwrapped increment since the last value, or 0 at first. Equation (14.7)."""
         last, self._last = self._last, value
         if last is None:
             return 0
@@ -90,13 +70,7 @@ class CounterUnwrapper:
 
 
 class Odometry:
-    """Wheel odometry: integrates counter increments into a pose (dead reckoning).
-
-    Parameters
-    ----------
-    calibration : Calibration
-    saturates : bool, see :class:`CounterUnwrapper`
-    """
+    """Integrates encoder increments to a pose (dead reckoning), and keeps a history of poses."""
 
     def __init__(self, calibration, saturates=False):
         self.calibration = calibration
@@ -105,35 +79,24 @@ class Odometry:
 
     @property
     def near_limit(self):
-        """Whether a counter will soon saturate and they should be reset: bool."""
+        """Whether a counter is close to saturation and both counters should be reset."""
         return self.path.near_limit or self.angle.near_limit
 
     @property
     def last_time(self):
-        """Time of the last counters [s], float; −∞ before any."""
+        """Time of the last counter values [s], or −∞ before the first values."""
         return self._poses[-1][0] if self._poses else -np.inf
 
     def expect_reset(self):
-        """Expect a reset of the counters; see :class:`CounterUnwrapper`."""
         self.path.expect_reset()
         self.angle.expect_reset()
 
     def expect_gap(self):
-        """Expect a gap after a lost connection: counters of 0 are then of a restarted robot."""
+        """Expect a gap after a lost connection; if the counters are then 0, the robot restarted."""
         self._gap = True
 
     def advance(self, path, angle, time):
-        """Integrate the odometry increment of new counters.
-
-        Parameters
-        ----------
-        path, angle : int, −128 to 127
-        time : float, when they were read [s]
-
-        Returns
-        -------
-        (3,) pose [m, m, rad]
-        """
+        """Integrate counter values read at the given time [s]; return the pose (3,) [m, m, rad]."""
         if self._gap and path == angle == 0:
             self.path.restart()
             self.angle.restart()
@@ -146,16 +109,7 @@ class Odometry:
         return pose
 
     def pose_at(self, time):
-        """Pose at a time: interpolated between two frames, extrapolated soon after the last.
-
-        Parameters
-        ----------
-        time : float [s]
-
-        Returns
-        -------
-        (3,) pose [m, m, rad]
-        """
+        """Interpolate the pose (3,) [m, m, rad] at the given time [s]; extrapolate up to 0.3 s."""
         poses = list(self._poses)  # another thread adds to them
         if not poses:
             return np.zeros(3)

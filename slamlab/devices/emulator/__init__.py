@@ -1,11 +1,10 @@
-"""Device emulators for RPLIDAR and eMIR: state machines fed bytes and time, and their ports.
+"""Device emulators of RPLIDAR and eMIR: protocol state machines and their ports.
 
 Read in this order:
 
-- ``robot_body``: the robot in its world; ``scan_head``, ``motion_distortion``: what its lidar sees
-- ``rplidar_emulator`` (with ``packet_encoder``), ``emir_emulator``: the state machines
-- ``serial_line``, ``fault_injection``: bytes delayed, lost, corrupted
-- ``pseudo_terminal``, ``tcp_server``: the ports; ``emulator_runner``: the thread that runs it all
-- ``memory_emulators``: the same without ports, in simulated time
-- ``synthetic_recording``: a drive recorded in simulated time
+- ``emulated_robot``: robot in its world; ``motion_distortion``, ``scan_sampling``: its lidar
+- ``lidar_models``, ``packet_encoder``, ``rplidar_emulator``, ``emir_emulator``: state machines
+- ``serial_line``, ``fault_injection``: delayed, lost and corrupted bytes
+- ``pseudo_terminal``, ``tcp_server``: ports; ``emulator_runner``: thread
+- ``in_memory_emulators``, ``synthetic_recording``: emulation without ports, in simulated time
 """

@@ -1,7 +1,4 @@
-"""eMIR emulator: the robot's protocol as a state machine of bytes and time, without port.
-
-``feed(bytes, now) -> bytes``, also with no bytes: only to let time pass.
-"""
+"""eMIR emulator: state machine for the robot's side of the protocol."""
 
 import errno
 import math
@@ -14,25 +11,16 @@ from slamlab.devices.emir.status import Status
 from slamlab.devices.emulator.serial_line import Faults, SerialLine
 
 STATUS_PERIOD = 0.1  # between status frames [s]
-CONTROL_PERIOD = 0.01  # how often it checks goal, obstacle and watchdog [s]
+CONTROL_PERIOD = 0.01  # of the checks of goal, obstacle and watchdog [s]
 BATTERY, INPUTS = 90, 0xF0  # 14.3 V
 STANDING, MOVING, TRANSLATING, ROTATING = range(4)  # work modes
 PATH, ANGLE = 0, 1  # indices of the counters
 
 
 class EmirEmulator:
-    """Emulator of an eMIR: commands in, status frames out.
+    """Emulated eMIR that receives commands and sends status frames.
 
-    Parameters
-    ----------
-    body : RobotBody
-    saturates : bool, whether its counters stop at their end instead of wrapping around
-    faults : Faults
-    rng : numpy.random.Generator, of the faults
-    watchdog : float, command timeout after which it stops [s], or None
-    baud : int [bit/s]
-
-    ``commands`` are those that came, ``bad`` counts the frames that were none.
+    ``saturates``: whether the counters saturate; ``watchdog``: watchdog timeout [s] or None.
     """
 
     def __init__(self, body, saturates=False, faults=None, rng=None, watchdog=None, baud=57600):
@@ -47,26 +35,12 @@ class EmirEmulator:
 
     @property
     def bad(self):
-        """Number of frames whose digits or checksum were wrong."""
+        """Number of received frames that contain wrong digits or a wrong checksum."""
         return self._framer.damage["bad frames"]
 
     def feed(self, data, now):
-        """Feed bytes from the client, and return those due by now.
-
-        Parameters
-        ----------
-        data : bytes
-        now : float [s], never smaller than before
-
-        Returns
-        -------
-        bytes
-
-        Raises
-        ------
-        OSError : unplugged
-        """
-        if self._now is None:  # time begins with the first call
+        """Receive bytes at ``now`` [s] and return bytes to send. Raises OSError when unplugged."""
+        if self._now is None:  # the first call sets the start time
             self._now = self._last_command = now
         self._simulate_until(now)
         if self.faults.unplugged:
@@ -79,7 +53,6 @@ class EmirEmulator:
         return self.line.take(now)
 
     def _simulate_until(self, now):
-        """Simulate up to now, and send the status frames that are due."""
         while self._now < now:
             self._now = min(self._now + CONTROL_PERIOD, now) if self._v or self._omega else now
             overdue = self._watchdog is not None and self._now - self._last_command > self._watchdog
@@ -120,7 +93,6 @@ class EmirEmulator:
         self._body.advance(self._v, self._omega, self._now)
 
     def _drive_counts(self, which, counts, speed):
-        """Drive or rotate by so many counts."""
         speed = math.copysign(min(max(speed, 10), 100), counts) if counts else 0
         v, omega = (speed, 0) if which == PATH else (0, speed)
         self._drive(v, omega, TRANSLATING if which == PATH else ROTATING)
@@ -133,7 +105,6 @@ class EmirEmulator:
         return sign * (self._body.counters()[which] - goal) >= 0
 
     def _obstacle_near(self):
-        """Whether an obstacle ahead is nearer than the minimum distance."""
         return self._min_gap and self._v > 0 and min(self._body.proximity()[:4]) < self._min_gap
 
     def _status(self):
@@ -158,6 +129,3 @@ class EmirEmulator:
 
 def _signed(byte):
     return byte - 256 if byte > 127 else byte
-
-
-EmirMachine = EmirEmulator  # name in the first edition

@@ -1,4 +1,4 @@
-"""Emulator runner: a thread that passes bytes between emulated devices and their clients."""
+"""Emulator thread that passes bytes between the emulated devices and their clients."""
 
 import select
 
@@ -6,64 +6,52 @@ import numpy as np
 
 from slamlab.devices.clock import Clock
 from slamlab.devices.emulator.emir_emulator import EmirEmulator
-from slamlab.devices.emulator.memory_emulators import MemoryEmulators
+from slamlab.devices.emulator.emulated_robot import EmulatedRobot
+from slamlab.devices.emulator.in_memory_emulators import InMemoryEmulators
+from slamlab.devices.emulator.lidar_models import lidar_model
 from slamlab.devices.emulator.motion_distortion import MovingLidar
 from slamlab.devices.emulator.pseudo_terminal import PseudoTerminal
-from slamlab.devices.emulator.robot_body import RobotBody
 from slamlab.devices.emulator.rplidar_emulator import RPLidarEmulator
+from slamlab.devices.emulator.serial_line import with_baud_rate
 from slamlab.devices.emulator.tcp_server import TcpServer
 from slamlab.devices.reader_thread import ReaderThread
-from slamlab.devices.shutdown import close_at_exit
+from slamlab.devices.shutdown import Closeable, close_at_exit
 from slamlab.devices.transport import open_port
 
-POLL_INTERVAL = 0.004  # between two polls of the devices [s]
-LONGEST_STEP = 0.05  # of the devices' time [s]: while the machine stands still, so do they
+POLL_INTERVAL = 0.004  # of the devices [s]
+LONGEST_STEP = 0.05  # of the devices' time [s]: they pause while this machine is suspended
 LIDAR, EMIR = "lidar", "emir"  # names of the devices
 
 
-class EmulatorRunner:
-    """Runs emulated devices, each on a port of its own, in a thread; closes them at its end.
-
-    Parameters
-    ----------
-    devices : dict of (device with feed(bytes, now) -> bytes, EmulatorPort) by name
-
-    ``clock`` and ``opener`` are what clients are to open the ports with.
-    """
+class EmulatorRunner(Closeable):
+    """Runs named pairs (device, EmulatorPort); a client gets ``opener`` and ``clock``."""
 
     opener = staticmethod(open_port)
 
     def __init__(self, devices):
-        self._devices, self.clock = devices, Clock()  # ports know real time alone
+        self._devices, self.clock = devices, Clock()  # ports need real time
         self.error, self._seen = None, self.clock.now()
         self._now = self._seen
         self._thread = ReaderThread(self._step, "emulator", self._on_end, self.clock)
         self._thread.start()
-        close_at_exit(self)  # after the drivers that hang on it: they were opened later
+        close_at_exit(self)  # after its drivers, which are opened later
 
     @property
     def ports(self):
-        """Port names that clients open: dict by device."""
+        """The name of each device's port, by device."""
         return {name: end.name for name, (_, end) in self._devices.items()}
 
     @property
     def dropped(self):
-        """Bytes lost by overflow since clients did not read: dict by device."""
+        """For each device, the number of lost bytes that its client did not read in time."""
         return {name: end.dropped for name, (_, end) in self._devices.items()}
 
     def __getitem__(self, name):
-        """Emulated device of a name."""
         return self._devices[name][0]
 
     def close(self):
-        """Stop the emulators, whose ports close with their thread; may be called again."""
+        """Stop the thread, which then closes the ports; repeated calls are safe."""
         self._thread.stop()
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *exc):
-        self.close()
 
     def _step(self, stopping):
         files = [file for _, end in self._devices.values() for file in end.files()]
@@ -72,13 +60,13 @@ class EmulatorRunner:
         else:
             stopping.wait(POLL_INTERVAL)
         now = self.clock.now()
-        # a robot would else have driven on for all the time that nobody could look or stop it
+        # after a suspension of this machine, the robot must not drive on for the whole time
         self._now += min(now - self._seen, LONGEST_STEP)
         self._seen = now
         for device, end in self._devices.values():
             received = end.receive()
             try:
-                data = device.feed(received, self._now)
+                data = with_baud_rate(device, end.baud).feed(received, self._now)
             except OSError:  # unplugged
                 end.unplug()
                 continue
@@ -92,54 +80,37 @@ class EmulatorRunner:
             end.close()
 
 
-def run_emulators(world, rng, tcp=None, lidar=None, emir=None, body=None, clock=None):
-    """Run an emulated lidar and an eMIR that carries it, in a world, on ports or in memory.
+def run_emulators(world, rng, tcp=None, lidar=None, emir=None, body=None, clock=None, carrier=None):
+    """Run an emulated lidar on an emulated eMIR or a pedestrian, on ports or in memory.
 
-    Parameters
-    ----------
-    world : World
-    rng : numpy.random.Generator
-    tcp : (host, lidar's port, eMIR's port) to listen on, or None for pseudo-terminals
-    lidar, emir, body : dict or None, options of RPLidarEmulator, EmirEmulator, RobotBody
-    clock : SimulatedClock in whose time they run, in memory; None for real time, on ports
-
-    Returns
-    -------
-    EmulatorRunner or MemoryEmulators with devices "lidar" and "emir"; its ``body`` is the robot
-
-    Raises
-    ------
-    PortError
+    ``tcp``: (host, lidar's port, eMIR's port), or None for pseudo-terminals; ``lidar``, ``emir``,
+    ``body``: options of RPLidarEmulator (``model`` by name), EmirEmulator and EmulatedRobot;
+    ``clock``: SimulatedClock to run in memory, or None; ``carrier``: Carrier, instead of a robot.
+    Returns an EmulatorRunner or InMemoryEmulators, whose ``body`` is the robot or carrier. Raises
+    PortError, ValueError.
     """
-    robot = RobotBody(world, rng, **(body or {}))
+    robot = carrier or EmulatedRobot(world, rng, **(body or {}))
     damage = np.random.default_rng(int(rng.integers(2**63)))
+    lidar = dict(lidar or {})
+    model = lidar_model(lidar.pop("model", "a2m8"))
+    measure = MovingLidar(robot, rng, model.scanner)
     machines = {
-        LIDAR: RPLidarEmulator(MovingLidar(robot, rng), rng=damage, **(lidar or {})),
-        EMIR: EmirEmulator(robot, rng=damage, **(emir or {})),
+        LIDAR: RPLidarEmulator(measure, model, rng=damage, **lidar),
     }
+    if carrier is None:
+        machines[EMIR] = EmirEmulator(robot, rng=damage, **(emir or {}))
     if clock is None:
         running = EmulatorRunner(attach_ports(machines, tcp))
     else:
-        running = MemoryEmulators(machines, clock)
+        running = InMemoryEmulators(machines, clock)
     running.body = robot
     return running
 
 
 def attach_ports(devices, tcp=None):
-    """Attach each device to a port of its own: a pseudo-terminal or a TCP server.
+    """Attach each device to a pseudo-terminal or to a TCP port of (host, *ports).
 
-    Parameters
-    ----------
-    devices : dict by name
-    tcp : (host, a port each) to listen on, or None for pseudo-terminals
-
-    Returns
-    -------
-    dict of (device, EmulatorPort) by name
-
-    Raises
-    ------
-    PortError
+    Raises PortError.
     """
     pairs = {}
     host, *ports = tcp or (None, *[None] * len(devices))

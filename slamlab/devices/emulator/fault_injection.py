@@ -1,42 +1,44 @@
-"""Fault injection into emulated devices, by words: at the start, or typed while they run."""
+"""Fault injection: text commands start and end faults of emulated devices."""
 
 from slamlab.devices.emulator.emulator_runner import EMIR, LIDAR
 
 HELP = """\
-unplug DEVICE | plug DEVICE      pull the plug of lidar or emir, put it in again
-stall | run                      block the lidar's motor, let it go
-flip DEVICE SHARE                flip a bit in that share of its bytes, such as 0.0001
-lose DEVICE SHARE                lose that share of its bytes
-stale DEVICE N                   N bytes of former times come before its next answer
-silent DEVICE HEX | answer DEVICE  do not answer that command; answer all again
-health STATUS CODE               what the lidar says of itself, such as 2 4
-spin-up SECONDS                  how long its motor takes to turn evenly"""
+unplug DEVICE | plug DEVICE      unplug or plug in a device, lidar or emir
+stall | run                      block or release the lidar's motor
+blind | see                      stop or resume the lidar's measurements
+unknown-type | known-type        send data of an unknown type, except in the standard scan
+flip DEVICE SHARE                flip a bit in this share of the bytes, such as 0.0001
+lose DEVICE SHARE                lose this share of the bytes
+stale DEVICE N                   send N old bytes before the next response
+silent DEVICE HEX | answer DEVICE  ignore this command, or respond to all commands again
+health STATUS CODE               set the health that the lidar reports, such as 2 4
+spin-up SECONDS                  set the time until the motor rotates steadily"""
+
+
+SWITCHES = {  # faults of the lidar by command: attribute, value
+    "stall": ("stalled", True),
+    "run": ("stalled", False),
+    "blind": ("blind", True),
+    "see": ("blind", False),
+    "unknown-type": ("unknown_type", True),
+    "known-type": ("unknown_type", False),
+}
 
 
 def inject_fault(running, text, rng):
-    """Inject a fault, or end it.
-
-    Parameters
-    ----------
-    running : EmulatorRunner with a lidar and an emir
-    text : str, one of the lines of HELP
-    rng : numpy.random.Generator, of stale bytes
-
-    Raises
-    ------
-    ValueError : there is no such switch
-    """
+    """Inject or end a fault with one of the commands that HELP lists. Raises ValueError."""
     words = text.split()
     try:
         _inject_fault(running, *words, rng=rng)
     except (TypeError, ValueError, KeyError):
-        raise ValueError(f"no such switch: {text.strip()!r}; there are\n{HELP}") from None
+        raise ValueError(f"unknown command {text.strip()!r}. Commands:\n{HELP}") from None
 
 
 def _inject_fault(running, word, *rest, rng):
-    if word in ("stall", "run"):
+    if word in SWITCHES:
         () = rest
-        running[LIDAR].faults.stalled = word == "stall"
+        name, on = SWITCHES[word]
+        setattr(running[LIDAR].faults, name, on)
     elif word == "health":
         status, code = (int(number, 0) for number in rest)
         if not (0 <= status <= 255 and 0 <= code <= 65535):

@@ -1,4 +1,4 @@
-"""Motion distortion: a lidar on a moving robot takes each sample from another pose."""
+"""Simulated motion distortion (rolling shutter): a lidar measures while it moves."""
 
 import numpy as np
 
@@ -9,90 +9,37 @@ HASH_MULTIPLIER = np.uint64(0x9E3779B97F4A7C15)  # 2⁶⁴ / golden ratio: Fibon
 
 
 class MovingLidar:
-    """Range measurements of a lidar that moves with the robot: scans with motion distortion.
+    """Lidar on a moving robot or carrier, with motion distortion and noise.
 
-    A sample's noise hangs on its time alone, so however often it is asked for it is the same.
-
-    Parameters
-    ----------
-    body : RobotBody that carries the lidar in its centre, front ahead
-    rng : numpy.random.Generator, of the noise
-    scanner : Scanner, whose noise and limits it has
+    The noise of a sample depends only on the sample's time.
     """
 
     def __init__(self, body, rng, scanner=RPLIDAR_A2):
         self._body, self._scanner, self._model = body, scanner, scanner.model
         self._noise = rng.standard_normal((1 << TABLE_BITS, 2))
         self._lost = rng.random(1 << TABLE_BITS) < scanner.dropouts
-        self._times = None  # of the samples asked for last, and what hangs on them alone
+        self._times = None  # of the last samples; their poses and noise are cached
 
     def __call__(self, times, directions):
-        """Measure distances, each from the robot's pose at its time.
+        """Return distances (n,), 0 for no return [mm], at ascending times (n,) [s].
 
-        Parameters
-        ----------
-        times : (n,) increasing [s]
-        directions : (n,) clockwise from the lidar's front [degree]
-
-        Returns
-        -------
-        (n,) [mm]; 0 where nothing came back
+        The directions (n,) are clockwise from the lidar's front [degree].
         """
-        scanner, world = self._scanner, self._body.world
-        if times is not self._times:  # a packet asks for its samples again and again
+        scanner = self._scanner
+        if times is not self._times:  # the packet encoder measures the same samples repeatedly
             self._times, self._sampled = times, self._sample(times)
-        poses, beside, along, lost = self._sampled
-        headings = poses[:, 2] - np.radians(directions) + beside
-        ranges = cast_each_ray(poses[:, :2], headings, world.walls, world.circles)
+        poses, bearing_noise, range_noise, lost = self._sampled
+        ranges = self._body.cast(times, poses, bearing_noise - np.radians(directions))
         seen = np.isfinite(ranges) & ~lost
         ranges = np.where(seen, ranges, 0.0)
-        ranges += self._model.sigma(ranges) * along
+        ranges += self._model.sigma(ranges) * range_noise
         inside = (ranges >= scanner.range_min) & (ranges <= scanner.range_max)
         return np.where(seen & inside, 1000 * ranges, 0.0)
 
     def _sample(self, times):
-        """Poses, noise of bearings and of ranges, and which are lost: what hangs on times alone."""
+        """Return the poses, noise of bearings and of ranges, and dropouts at times (n,) [s]."""
         key = np.ascontiguousarray(times, dtype=float).view(np.uint64)
         row = (key * HASH_MULTIPLIER) >> np.uint64(64 - TABLE_BITS)
-        beside, along = self._noise[row].T
-        beside = self._scanner.bearing_sigma * beside
-        return self._body.pose_at(times), beside, along, self._lost[row]
-
-
-def cast_each_ray(positions, directions, walls, circles):
-    """Ray casting with one origin per ray: distance to the nearest obstacle.
-
-    ``slamlab.worlds.ray_casting`` casts many rays from one place; from the many of a moving lidar
-    a plain table of rays and obstacles is quicker.
-
-    Parameters
-    ----------
-    positions : (n, 2) [m]
-    directions : (n,) counter-clockwise from +x [rad]
-    walls : (w, 4) rows x1 y1 x2 y2 [m]
-    circles : (c, 3) rows x y radius [m]
-
-    Returns
-    -------
-    (n,) [m]; inf where nothing is met
-    """
-    ux, uy = np.cos(directions)[:, None], np.sin(directions)[:, None]
-    x, y = positions[:, :1], positions[:, 1:]
-    with np.errstate(divide="ignore", invalid="ignore"):
-        ax, ay = walls[:, 0] - x, walls[:, 1] - y
-        wx, wy = walls[:, 2] - walls[:, 0], walls[:, 3] - walls[:, 1]
-        across = ux * wy - uy * wx
-        along, share = (ax * wy - ay * wx) / across, (ax * uy - ay * ux) / across
-        hits = (along >= 0) & (share >= 0) & (share <= 1)
-        to_walls = np.where(hits, along, np.inf)
-        cx, cy = circles[:, 0] - x, circles[:, 1] - y
-        middle = ux * cx + uy * cy
-        half = np.sqrt(circles[:, 2] ** 2 - (ux * cy - uy * cx) ** 2)
-        near, far = middle - half, middle + half
-        to_rims = np.where(near >= 0, near, np.where(far >= 0, far, np.inf))
-    return np.minimum(  # NaN: past a rim
-        to_walls.min(axis=1, initial=np.inf), np.fmin.reduce(to_rims, axis=1, initial=np.inf)
-    )
-
-
-Sight = MovingLidar  # name in the first edition
+        bearing_noise, range_noise = self._noise[row].T
+        bearing_noise = self._scanner.bearing_sigma * bearing_noise
+        return self._body.pose_at(times), bearing_noise, range_noise, self._lost[row]

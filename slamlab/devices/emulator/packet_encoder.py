@@ -1,8 +1,4 @@
-"""Packet encoder: samples as an RPLIDAR sends them, with checksum; the reverse of the decoders.
-
-The optics see a point a little behind the angle at which the motor stands, the farther the more.
-The express modes give the motor's angle and that offset; the standard scan the point's own angle.
-"""
+"""Packet encoder of the RPLIDAR emulator: the inverse of the driver's decoders."""
 
 import struct
 from functools import reduce
@@ -10,27 +6,28 @@ from operator import xor
 
 import numpy as np
 
-from slamlab.devices.rplidar.capsules import MAJORS_MM, SCALE_LEVELS, ultra_offset_q16
+from slamlab.devices.rplidar.capsules import (
+    DENSE_SCALES,
+    MAJORS_MM,
+    QUALITY,
+    SCALE_LEVELS,
+    ultra_offset_q16,
+)
+from slamlab.devices.rplidar.hq_capsules import HQ_NODE, SYNC, hq_checksum
 from slamlab.devices.rplidar.responses import AnswerType
 
-QUALITY = 47  # signal quality of every echo
-NO_ECHO = 511  # the difference that means "nothing came back"
+NO_ECHO = 511  # difference that means "no return"
+# Parallax: a point lies behind the motor's angle, and farther behind at a larger distance. The
+# express modes send the motor's angle and this offset, the standard scan the angle of the point.
 PARALLAX_ITERATIONS = 3  # fixed-point steps for the parallax offset of a point
 
 
 def encode_scan_nodes(angle, step, measure, first):
-    """Encode measurement nodes of the standard scan.
+    """Encode measurement nodes of the standard scan as a list of bytes.
 
-    Parameters
-    ----------
-    angle : (n,) the motor's at each sample, growing over the turns [degree]
-    step : float, between samples [degree]
-    measure : callable((n,) directions [degree]) -> (n,) [mm], 0 for nothing
-    first : bool, whether the scan begins here; here it does not matter
-
-    Returns
-    -------
-    list of bytes
+    ``angle``: unwrapped angle of the motor, (n,) [degree]; ``step``: angle between samples
+    [degree]; ``measure``: callable((n,) [degree]) -> (n,) [mm], 0 for no return; ``first``:
+    whether this is the first packet of a scan.
     """
     q6 = np.floor(angle * 64).astype(np.int64) % 23040
     distance = np.clip(np.round(4 * measure(angle)), 0, 65535).astype(np.int64)
@@ -42,7 +39,7 @@ def encode_scan_nodes(angle, step, measure, first):
 
 
 def encode_express_capsule(angle, step, measure, first):
-    """Encode a legacy express capsule of 32 samples; parameters as :func:`encode_scan_nodes`."""
+    """Encode a legacy express capsule of 32 samples; arguments as in :func:`encode_scan_nodes`."""
     mm, offset_q16 = _with_parallax(angle, measure)
     offset_q3 = offset_q16 >> 13
     mm = np.clip(np.round(measure(angle - offset_q3 / 8)), 0, 16383).astype(np.int64)
@@ -56,7 +53,7 @@ def encode_express_capsule(angle, step, measure, first):
 
 
 def encode_ultra_capsule(angle, step, measure, first):
-    """Encode an ultra capsule of 96 samples; ``angle`` has the one after them, too."""
+    """Encode an ultra capsule of 96 samples; ``angle`` must contain 97 angles."""
     mm, _ = _with_parallax(angle, measure)
     mm = np.round(mm).astype(np.int64)
     majors, middle, last = mm[0::3], mm[1::3], mm[2::3]
@@ -71,18 +68,56 @@ def encode_ultra_capsule(angle, step, measure, first):
     return [_capsule(angle[0], first, words.astype("<u4").tobytes())]
 
 
+def encode_dense_capsule(angle, step, measure, first):
+    """Encode a dense capsule of 40 samples."""
+    mm = np.clip(np.round(measure(angle)), 0, 65535)
+    return [_capsule(angle[0], first, mm.astype("<u2").tobytes())]
+
+
+def encode_ultra_dense_capsule(angle, step, measure, first):
+    """Encode an ultra-dense capsule of 64 samples."""
+    mm = np.round(measure(angle)).astype(np.int64)
+    scale = np.searchsorted(DENSE_SCALES[1:, 0], mm)
+    first_mm, step_mm = DENSE_SCALES[scale].T
+    code = np.clip((mm - first_mm + step_mm // 2) // step_mm, 0, (1 << 10 + scale) - 1)
+    words = scale | code << 2 | np.where(mm > 0, QUALITY << 2, 0) >> scale << 12 + scale
+    low, high = (words & 0xFFFF).reshape(-1, 2).tolist(), (words >> 16).reshape(-1, 2).tolist()
+    cabins = [
+        struct.pack("<HHB", *pair, one | other << 4)
+        for pair, (one, other) in zip(low, high, strict=True)
+    ]
+    return [_capsule(angle[0], first, b"".join(cabins), bytes(6))]
+
+
+def encode_hq_capsule(angle, step, measure, first):
+    """Encode an HQ capsule of 96 samples."""
+    nodes = np.empty(len(angle), HQ_NODE)
+    nodes["angle"] = np.floor(angle % 360 / 90 * 16384)
+    nodes["distance"] = np.round(4 * measure(angle))
+    nodes["quality"] = np.where(nodes["distance"] > 0, QUALITY << 2, 0)
+    nodes["flags"] = np.where(np.floor(angle / 360) > np.floor((angle - step) / 360), 1, 2)
+    data = bytes([SYNC]) + bytes(8) + nodes.tobytes()
+    return [data + hq_checksum(data)]
+
+
+def encode_noise(angle, step, measure, first):
+    """Encode a packet of a type that no decoder knows."""
+    return [np.random.default_rng(int(abs(angle[0]) * 64)).bytes(60)]
+
+
+# by answer type: encoder, samples per packet, number of additional samples
 ENCODERS = {
     AnswerType.SCAN: (encode_scan_nodes, 1, 0),
     AnswerType.EXPRESS: (encode_express_capsule, 32, 0),
     AnswerType.ULTRA: (encode_ultra_capsule, 96, 1),
+    AnswerType.DENSE: (encode_dense_capsule, 40, 0),
+    AnswerType.ULTRA_DENSE: (encode_ultra_dense_capsule, 64, 0),
+    AnswerType.HQ: (encode_hq_capsule, 96, 0),
 }
-"""By answer type: encoder, samples a packet, and how many more samples it needs."""
-
-PACKET_SIZES = {AnswerType.SCAN: 5, AnswerType.EXPRESS: 84, AnswerType.ULTRA: 132}  # [byte]
 
 
 def _with_parallax(angle, measure):
-    """Distances [mm] and their parallax offsets [1/65536 degree], by fixed-point iteration."""
+    """Compute distances [mm] and parallax offsets [1/65536 degree] by a fixed-point iteration."""
     offset = np.full(len(angle), 7 << 16)
     for _ in range(PARALLAX_ITERATIONS):
         mm = measure(angle - offset / 65536)
@@ -91,14 +126,13 @@ def _with_parallax(angle, measure):
 
 
 def _difference(mm, base, level):
-    """Encode a distance's difference to a base in ten bits, nearest step."""
     difference = (mm - base + (1 << level >> 1)) >> level
     fits = (mm > 0) & (np.abs(difference) < NO_ECHO)
     return np.where(fits, difference, NO_ECHO) & 0x3FF
 
 
-def _capsule(angle, first, body):
+def _capsule(angle, first, body, before=b""):
     start = int(np.floor(angle * 64)) % 23040 | first << 15
-    head = struct.pack("<H", start)
+    head = before + struct.pack("<H", start)
     check = reduce(xor, head + body)
     return bytes([0xA0 | check & 15, 0x50 | check >> 4]) + head + body

@@ -1,69 +1,62 @@
-"""Ports of emulated devices: a pseudo-terminal (pty), which clients open like a serial port."""
+"""Ports of emulated devices: base class, and pseudo-terminal (pty) that acts as a serial port."""
 
 import contextlib
 import os
 import shutil
+import struct
+import sys
 import tempfile
 
 from slamlab.devices.errors import PortError
 
+# ioctl of Linux for the settings of a terminal with any baud rate (not on MIPS, PowerPC, SPARC):
+# flags, line discipline, control characters, input and output rates
+TCGETS2, TERMIOS2 = 0x802C542A, struct.Struct("4IB19s2I")
 READ_SIZE = 4096  # bytes read at a time
-BUFFER_SIZE = 11520  # bytes buffered for a client that does not read: 1 s at 115200 baud
+BUFFER_SIZE = 11520  # bytes buffered for a slow client: 1 s at 115200 baud
 
 
 class EmulatorPort:
-    """Base class of emulator ports: the device's end of a line, non-blocking.
-
-    ``name`` is what a client opens. ``dropped`` counts bytes lost by buffer overflow, since the
-    client did not read in time, as a real port loses them.
-    """
+    """Base class of non-blocking emulator ports; ``dropped`` counts bytes lost by overflow."""
 
     name, dropped = "", 0
+    baud = None  # baud rate that the client has set [bit/s], if known
 
     def __init__(self):
         self._waiting, self.plugged = b"", False
 
     def files(self):
-        """Files to wait for with select: they become readable when a client writes."""
+        """Return the open files on which select() can wait."""
         raise NotImplementedError
 
     def receive(self):
-        """Receive what a client wrote, perhaps nothing: bytes."""
+        """Return the bytes that a client has written, which may be empty."""
         raise NotImplementedError
 
     def send(self, data):
-        """Send to the client; buffer what it does not take, drop what overflows."""
+        """Send bytes; keep unread bytes in a buffer, and drop bytes if the buffer overflows."""
         self._waiting += data
-        with contextlib.suppress(OSError):  # full, or gone
+        with contextlib.suppress(OSError):  # full, or disconnected
             while self._waiting:
                 self._waiting = self._waiting[self._write(self._waiting) :]
         self.dropped += max(len(self._waiting) - BUFFER_SIZE, 0)
         self._waiting = self._waiting[:BUFFER_SIZE]
 
     def plug(self):
-        """Plug in: let clients connect, under the same name as ever."""
+        """Accept clients again, under the same port name as before."""
         raise NotImplementedError
 
     def unplug(self):
-        """Unplug: a client's next read or write fails."""
+        """Disconnect the client, whose next read or write then fails."""
         raise NotImplementedError
 
     def close(self):
-        """Unplug for good and release the port."""
+        """Unplug the device permanently, and release the port."""
         self.unplug()
 
 
 class PseudoTerminal(EmulatorPort):
-    """Pseudo-terminal (pty) as an emulator's port, on Linux and macOS: opens like a serial port.
-
-    Parameters
-    ----------
-    label : str, last part of its name
-
-    Raises
-    ------
-    PortError : this system has none
-    """
+    """Pseudo-terminal with a name that ends in ``label``. Raises PortError on Windows."""
 
     def __init__(self, label):
         super().__init__()
@@ -73,38 +66,44 @@ class PseudoTerminal(EmulatorPort):
         except ImportError:
             raise PortError(
                 "this system has no pseudo-terminals",
-                "it is Windows",
-                "use TCP: slamlab emulate --tcp",
+                "the system is Windows",
+                "use TCP with the command slamlab emulate --tcp",
             ) from None
         self._pty, self._tty = pty, tty
         self._folder = tempfile.mkdtemp(prefix="slamlab-")
         self.name = os.path.join(self._folder, label)
         self.plug()
 
+    @property
+    def baud(self):
+        """Baud rate that the client has set [bit/s], or None if the system does not report it."""
+        if sys.platform != "linux" or not self.plugged:
+            return None
+        import fcntl
+
+        words = bytearray(TERMIOS2.size)
+        fcntl.ioctl(self._slave, TCGETS2, words)
+        return TERMIOS2.unpack(words)[-1]
+
     def files(self):
-        """See :meth:`EmulatorPort.files`."""
         return [self._master] if self.plugged else []
 
     def receive(self):
-        """See :meth:`EmulatorPort.receive`."""
         try:
             return os.read(self._master, READ_SIZE) if self.plugged else b""
-        except OSError:  # nothing there
+        except OSError:  # no data
             return b""
 
     def plug(self):
-        """See :meth:`EmulatorPort.plug`."""
-        # the slave is kept open, too: else a client that closes it breaks the master
+        # the slave stays open, because a client that closes the last one breaks the master
         self._master, self._slave = self._pty.openpty()
-        self._tty.setraw(
-            self._slave
-        )  # before anybody opens it: an echo would come back as requests
+        # before a client opens it: its echo would be received as requests
+        self._tty.setraw(self._slave)
         os.set_blocking(self._master, False)
         os.symlink(os.ttyname(self._slave), self.name)
         self.plugged = True
 
     def unplug(self):
-        """See :meth:`EmulatorPort.unplug`."""
         if self.plugged:
             self.plugged, self._waiting = False, b""
             os.unlink(self.name)
@@ -112,7 +111,6 @@ class PseudoTerminal(EmulatorPort):
             os.close(self._slave)
 
     def close(self):
-        """See :meth:`EmulatorPort.close`."""
         super().close()
         shutil.rmtree(self._folder, ignore_errors=True)
 

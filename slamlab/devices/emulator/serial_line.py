@@ -1,4 +1,4 @@
-"""Serial line of an emulated device: baud rate, buffer overflow, and corrupted or lost bytes."""
+"""Serial line (UART) of an emulated device: baud rate, overflow, corrupted and lost bytes."""
 
 from collections import deque
 from dataclasses import dataclass, field
@@ -6,20 +6,18 @@ from dataclasses import dataclass, field
 import numpy as np
 
 BITS_PER_BYTE = 10  # on the line: start, eight data, stop
+CAPACITY = 4096  # of the transmit buffer [byte]
+MISMATCH = 0x5A  # wrong bits of each byte at another baud rate
 
 
 @dataclass
 class Faults:
-    """Fault injection: what goes wrong; may be changed while the device runs.
+    """Injected faults, which can be changed while the device runs.
 
-    Parameters
-    ----------
-    flip : float, share of bytes corrupted by a flipped bit
-    lose : float, share of bytes that are lost
-    stale : bytes of former times, still on their way: they come before the next answer, once
-    silent : commands that are not answered
-    stalled : bool, whether the motor is blocked
-    unplugged : bool, whether reading and writing fail
+    ``flip``: share of the bytes with a flipped bit; ``lose``: share of lost bytes; ``stale``: bytes
+    before the next response; ``silent``: commands that get no response; ``stalled``: whether the
+    motor is blocked; ``blind``: whether no sample has a distance; ``unknown_type``: whether all
+    modes except the standard scan send data of an unknown type.
     """
 
     flip: float = 0.0
@@ -27,49 +25,50 @@ class Faults:
     stale: bytes = b""
     silent: set = field(default_factory=set)
     stalled: bool = False
+    blind: bool = False
+    unknown_type: bool = False
     unplugged: bool = False
 
 
+class BaudRateMismatch:
+    """A device whose client uses another baud rate, so that all bytes are corrupted."""
+
+    def __init__(self, device):
+        self._device = device
+
+    def feed(self, data, now):
+        return bytes(byte ^ MISMATCH for byte in self._device.feed(b"", now))
+
+
+def with_baud_rate(device, baud):
+    """Return the device or, if the baud rates differ, a BaudRateMismatch; ``baud`` None: TCP."""
+    own = getattr(device, "baud", None)
+    return device if None in (own, baud) or own == baud else BaudRateMismatch(device)
+
+
 class SerialLine:
-    """Serial line: buffers packets and sends them at the baud rate, with faults.
+    """Line that sends packets at the baud rate, with faults; drops packets beyond CAPACITY."""
 
-    Parameters
-    ----------
-    baud : int [bit/s]
-    faults : Faults
-    rng : numpy.random.Generator, of the damage
-    capacity : int, bytes that can wait; more are dropped whole packets at a time, and counted
-    """
-
-    def __init__(self, baud, faults, rng, capacity=4096):
-        self._faults, self._rng, self._capacity = faults, rng, capacity
+    def __init__(self, baud, faults, rng):
+        self._faults, self._rng = faults, rng
         self._byte_time = BITS_PER_BYTE / baud
         self._packets, self._waiting, self._free_at = deque(), 0, 0.0
         self._sent = []
         self.dropped = 0
 
     def put(self, packet, ready):
-        """Queue a packet behind those there; ``ready`` is when it can be sent [s]."""
+        """Queue a packet for transmission after the time ``ready`` [s]."""
         stale, self._faults.stale = self._faults.stale, b""
         packet = stale + packet
-        self._send(ready)  # what goes by then takes no room
-        if self._waiting + len(packet) > self._capacity:
+        self._send(ready)  # frees the buffer of the bytes sent by then
+        if self._waiting + len(packet) > CAPACITY:
             self.dropped += len(packet)
         elif packet:
             self._packets.append((ready, packet))
             self._waiting += len(packet)
 
     def take(self, now):
-        """Take the bytes that have gone over the line since the last call.
-
-        Parameters
-        ----------
-        now : float [s]
-
-        Returns
-        -------
-        bytes
-        """
+        """Return the bytes that have been transmitted since the last call."""
         self._send(now)
         sent, self._sent = b"".join(self._sent), []
         return self._corrupted(sent)

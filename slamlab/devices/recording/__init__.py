@@ -1,10 +1,10 @@
-"""Raw recordings (logs) of devices: every byte with its timestamp; read, replayed, played back.
+"""Raw recordings of devices, with a timestamp for every byte, and their playback (replay).
 
 Read in this order:
 
-- ``recording_file``: the format; ``recorder``: writing it while programs use the ports
-- ``decoding``: scans and statuses out of it; ``request_response``: what was asked and answered
-- ``replay_port``: a recording as a port; ``playback``: as devices that answer requests
+- ``recording_file``: file format; ``recorder``: writes recordings
+- ``decoding``: decodes scans and statuses
+- ``playback``: replays a recording as emulated devices
 """
 
 from slamlab.devices.recording.recorder import Recorder

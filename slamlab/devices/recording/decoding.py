@@ -1,58 +1,45 @@
-"""Decoding of raw recordings: revolutions (turns) of the lidar, statuses of eMIR, timestamps."""
+"""Decoding of raw recordings into revolutions of the lidar and statuses of eMIR."""
+
+from collections import Counter
 
 from slamlab.devices.emir.frames import Framer
 from slamlab.devices.emir.status import Status
 from slamlab.devices.errors import ProtocolError
 from slamlab.devices.recording.recording_file import EVENT, RX, TX
-from slamlab.devices.rplidar.request_parser import RequestParser
-from slamlab.devices.rplidar.requests import NON_INTERRUPTING, SCAN_COMMANDS, Command, Conf
-from slamlab.devices.rplidar.response_finder import ResponseFinder
-from slamlab.devices.rplidar.responses import AnswerType, SampleRate, conf_value
+from slamlab.devices.rplidar.requests import (
+    NON_INTERRUPTING,
+    SCAN_COMMANDS,
+    Command,
+    Conf,
+    RequestParser,
+)
+from slamlab.devices.rplidar.responses import (
+    AnswerType,
+    Info,
+    ResponseFinder,
+    SampleRate,
+    conf_value,
+)
+from slamlab.devices.rplidar.scan_modes import ScanMode, plausible
 from slamlab.devices.rplidar.scan_stream import DECODERS, ScanStream
 
-DEFAULT_PERIODS = {
-    AnswerType.SCAN: 508e-6,
-    AnswerType.EXPRESS: 254e-6,
-    AnswerType.ULTRA: 127e-6,
-    AnswerType.DENSE: 127e-6,
-}
-"""Sample periods of an A2's modes, where a recording does not tell them [s]."""
-
-
+# answer types of the requests whose single response is decoded here
 SINGLE_ANSWERS = {
+    Command.GET_INFO: AnswerType.INFO,
     Command.GET_LIDAR_CONF: AnswerType.CONF,
     Command.GET_SAMPLERATE: AnswerType.SAMPLERATE,
 }
-"""Answer types of the requests whose single answer is decoded here."""
 
 
-def turns(recording):
-    """Decode the whole revolutions (turns) of the lidar.
-
-    Parameters
-    ----------
-    recording : Recording
-
-    Yields
-    ------
-    Turn, its times on the recording's clock
-    """
+def revolutions(recording):
+    """Yield each Revolution of the lidar; its times refer to the recording's clock."""
     lidar = RecordedLidar(recording.baud("lidar"))
     for record in recording.of("lidar"):
         yield from lidar.feed(record)
 
 
 def statuses(recording):
-    """Decode the statuses of eMIR.
-
-    Parameters
-    ----------
-    recording : Recording
-
-    Yields
-    ------
-    float, Status : when its last byte came [s], and what it says
-    """
+    """Yield (time of the last byte [s], Status) for each recorded status."""
     framer = Framer()
     for record in recording.of("emir", RX):
         for content in framer.feed(record.data):
@@ -60,25 +47,31 @@ def statuses(recording):
 
 
 class RecordedLidar:
-    """Decoder of a recorded lidar: follows requests and responses to know the scan mode.
+    """Decoder of a recorded lidar that finds ``info`` and ``mode`` in requests and responses.
 
-    Parameters
-    ----------
-    baud : int [bit/s]
+    ``damage`` counts dropped bytes, failed checksums and resynchronisations.
     """
 
     def __init__(self, baud):
         self._baud, self._parser = baud, RequestParser()
-        self._periods, self._rate = {}, None  # by number of the mode, as the lidar said
+        self.info = self.mode = self._rate = None
+        self._conf, self._damage = {}, Counter()  # reported values by key and mode
         self._asked, self._finder, self._stream, self._gap = None, None, None, False
 
+    @property
+    def damage(self):
+        return self._damage + (self._stream.decoder.damage if self._stream else Counter())
+
     def feed(self, record):
-        """Decode a record into the revolutions that ended with it: list of Turn."""
+        """Process a record and return the revolutions that it completes."""
         try:
             return self._feed(record)
-        except ProtocolError:  # damaged on the line: the driver gave up here, too
-            self._stream = None
+        except ProtocolError:  # corrupted on the line: the driver raised the same error
+            self._end_stream()
             return []
+
+    def _end_stream(self):
+        self._damage, self._stream = self.damage, None
 
     def _feed(self, record):
         if record.kind == TX:
@@ -97,7 +90,8 @@ class RecordedLidar:
     def _request(self, command, payload):
         if command in NON_INTERRUPTING:
             return
-        self._asked, self._stream = (command, payload), None
+        self._asked = command, payload
+        self._end_stream()
         scans = command in SCAN_COMMANDS
         kind = tuple(DECODERS) if scans else SINGLE_ANSWERS.get(command)
         self._finder = None if kind is None else ResponseFinder(kind, loop=scans)
@@ -109,20 +103,28 @@ class RecordedLidar:
             self._rate = SampleRate.unpack(payload)
         elif command == Command.GET_LIDAR_CONF:
             what, mode = (int.from_bytes(asked[a:b], "little") for a, b in ((0, 4), (4, 6)))
-            if what == Conf.US_PER_SAMPLE:
-                self._periods[mode] = 1e-6 * conf_value(what, payload)
-        elif command in SCAN_COMMANDS:
+            self._conf[what, mode] = conf_value(what, payload)
+        elif command == Command.GET_INFO and len(payload) == 20:
+            self.info = Info.unpack(payload)
+        elif command in SCAN_COMMANDS and DECODERS[descriptor.type].size == descriptor.length:
             answer = AnswerType(descriptor.type)
-            mode = asked[0] if command == Command.EXPRESS_SCAN and asked else 0
-            period = self._period(answer, mode)
-            self._stream = ScanStream(answer, period, self._baud, now, self._gap)
+            self.mode = self._mode(answer, asked[0] if asked else 0)
+            self._stream = ScanStream(answer, self.mode.period, self._baud, now, self._gap)
             self._gap = False
             return self._stream.feed(finder.rest, now) if finder.rest else []
         return []
 
-    def _period(self, answer, mode):
-        if self._rate is not None:
-            return self._rate.standard if answer == AnswerType.SCAN else self._rate.express
-        legacy = mode == 0 and answer != AnswerType.SCAN  # capsules without a mode
-        default = DEFAULT_PERIODS[answer]
-        return default if legacy else self._periods.get(mode, default)
+    def _mode(self, answer, number):
+        """Return the ScanMode of the running scan, given the requested mode number."""
+        types = {
+            mode: kind for (what, mode), kind in self._conf.items() if what == Conf.ANSWER_TYPE
+        }
+        if answer == AnswerType.SCAN:
+            number = next((mode for mode, kind in types.items() if kind == answer), 0)
+        elif number == 0 and types.get(0) != answer:
+            number = -1  # legacy capsules of firmware without scan modes
+        keys = Conf.US_PER_SAMPLE, Conf.MAX_DISTANCE
+        us, range_max = (self._conf.get((key, number)) for key in keys)
+        if us is None and self._rate is not None:
+            us = 1e6 * (self._rate.standard if answer == AnswerType.SCAN else self._rate.express)
+        return ScanMode(number, answer.name, *plausible(us, range_max, answer), answer)

@@ -1,7 +1,8 @@
-"""Recorder: logs every byte that goes over the ports of devices while programs use them."""
+"""Recorder that stores every byte that is sent or received over the ports of devices."""
 
 import contextlib
 import gzip
+import os
 import shutil
 import threading
 from datetime import UTC, datetime
@@ -11,24 +12,24 @@ from slamlab import __version__
 from slamlab.devices.clock import Clock
 from slamlab.devices.errors import ConnectionLost
 from slamlab.devices.recording.recording_file import EVENT, MAX_RECORD, RX, TX, Record, header_line
-from slamlab.devices.shutdown import close_at_exit
+from slamlab.devices.shutdown import Closeable, close_at_exit
 from slamlab.devices.transport import Transport, open_port
 
-FLUSH_INTERVAL = 1.0  # between flushes to disk: what is lost at most in a crash [s]
+BAUD_DIGITS = 8  # at most, of a baud rate
+FLUSH_INTERVAL = 1.0  # between flushes to disk: the most that a crash loses [s]
 
 
-class Recorder:
-    """Recorder of a raw recording; its file is append-only.
+class Recorder(Closeable):
+    """Writer of a raw recording; compresses the file on closing if its name ends in .gz.
 
-    Where the name ends in .gz the file is packed when it is closed, and has no .gz until then.
+    ``error``: exception that ended the writing, or None; ``received``: number of received bytes.
 
     Parameters
     ----------
-    path : str or Path, of a file that is not there yet
-    devices : dict by channel, "lidar" or "emir", of what is known: port, baud
-    clock : Clock, the drivers' one
-
-    ``error`` is why it could not write on, if so: the devices go on. ``received`` counts bytes.
+    path : str or Path, of a new file
+    devices : dict by channel, "lidar" or "emir", of properties: port, baud; baud None: the rate of
+        the last opening is stored
+    clock : Clock of the drivers
 
     Raises
     ------
@@ -44,49 +45,36 @@ class Recorder:
             raise FileExistsError(17, "File exists", str(path))
         self._file, self._lock = self.path.open("xb"), threading.RLock()
         self._flushed = self.clock.now()
-        header = {
+        self._header = {
             "slamlab": __version__,
             "created": datetime.now(UTC).isoformat(timespec="seconds"),
             "monotonic_ns": self._now(),
-            "devices": devices,
+            "devices": {channel: dict(known) for channel, known in devices.items()},
         }
-        self._file.write(header_line(header))
-        self._file.flush()
+        self._detected = {name for name, known in devices.items() if known.get("baud", 0) is None}
+        # with space for the baud rates
+        self._header_size = len(header_line(self._header)) + BAUD_DIGITS * len(self._detected)
+        self._write_header()
         close_at_exit(self)
 
     def opener(self, channel, opener=open_port):
-        """Wrap an opener of ports, so that all that goes over them is recorded.
-
-        Parameters
-        ----------
-        channel : str, "lidar" or "emir"
-        opener : callable(name, baud) -> Transport
-
-        Returns
-        -------
-        callable(name, baud) -> Transport, as drivers take it
-        """
+        """Return an opener for a driver; it records all bytes of the port of a channel."""
 
         def opened(name, baud):
             port = RecordedPort(opener(name, baud), self, channel)
+            if channel in self._detected:
+                self._header["devices"][channel]["baud"] = baud
+                self._write_header()
             self.event(channel, f"opened {name} at {baud} baud")
             return port
 
         return opened
 
     def event(self, channel, text):
-        """Record an event, such as a lost connection."""
         self.write(EVENT, channel, text.encode())
 
     def write(self, kind, channel, data):
-        """Record bytes with the time now.
-
-        Parameters
-        ----------
-        kind : RX, TX or EVENT
-        channel : str
-        data : bytes
-        """
+        """Record bytes with their kind (RX, TX or EVENT) and the current time."""
         with self._lock:
             if self._file is None or self.error is not None:
                 return
@@ -101,8 +89,21 @@ class Recorder:
             except OSError as error:
                 self.error = error
 
+    def _write_header(self):
+        with self._lock:
+            if self._file is None or self.error is not None:
+                return
+            line = header_line(self._header).rstrip()
+            try:
+                self._file.seek(0)
+                self._file.write(line.ljust(self._header_size - 1) + b"\n")
+                self._file.seek(0, os.SEEK_END)
+                self._file.flush()
+            except OSError as error:
+                self.error = error
+
     def close(self):
-        """Close the recording; may be called again."""
+        """Close the recording; repeated calls are safe."""
         with self._lock:
             file, self._file = self._file, None
             if file is None:
@@ -117,25 +118,12 @@ class Recorder:
             except OSError as error:
                 self.error = self.error or error
 
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *exc):
-        self.close()
-
     def _now(self):
         return round(self.clock.now() * 1e9)
 
 
 class RecordedPort(Transport):
-    """Transport whose every byte is recorded, in the pieces in which it was read.
-
-    Parameters
-    ----------
-    port : Transport
-    recorder : Recorder
-    channel : str
-    """
+    """Transport that records all bytes in the chunks in which they are read or written."""
 
     def __init__(self, port, recorder, channel):
         self._port, self._recorder, self._channel = port, recorder, channel
@@ -143,7 +131,6 @@ class RecordedPort(Transport):
         self.name, self.baud = port.name, port.baud
 
     def read(self, n, timeout):
-        """See :meth:`Transport.read`."""
         with self._record_gaps():
             data = self._port.read(n, timeout)
         if data:
@@ -151,18 +138,15 @@ class RecordedPort(Transport):
         return data
 
     def write(self, data):
-        """See :meth:`Transport.write`."""
-        self._recorder.write(TX, self._channel, bytes(data))  # before it: answers come after
+        self._recorder.write(TX, self._channel, bytes(data))  # before the response arrives
         with self._record_gaps():
             self._port.write(data)
 
     def set_dtr(self, on):
-        """See :meth:`Transport.set_dtr`."""
         return self._port.set_dtr(on)
 
     def close(self):
-        """See :meth:`Transport.close`."""
-        self._closed = True  # before it: a thread that reads meanwhile loses no connection by it
+        self._closed = True  # before closing: the reading thread then records no lost connection
         self._port.close()
         self._recorder.event(self._channel, "closed")
 

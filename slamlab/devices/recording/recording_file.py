@@ -1,8 +1,4 @@
-"""File format of raw recordings: a JSON header line, then binary records with a CRC checksum.
-
-A record, little endian: u8 kind (0 received, 1 sent, 2 event), u8 channel (0 lidar, 1 eMIR), u64
-time of the monotonic clock [ns], u32 length, so many bytes, u32 CRC-32 of all that.
-"""
+"""File format of raw recordings: a JSON header line, then binary records with a CRC-32 checksum."""
 
 import json
 import struct
@@ -10,23 +6,25 @@ import zlib
 from dataclasses import dataclass
 from itertools import count
 
-from slamlab.files.errors import SourceError
-from slamlab.files.text_files import read_bytes
+from slamlab.files import SourceError, read_bytes
 
 FORMAT, VERSION = "slamlab raw recording", 1  # of the header
 RX, TX, EVENT = range(3)  # kinds of records: received, sent, event
 CHANNELS = "lidar", "emir"  # devices, by number in a record
-HEADER, CRC = struct.Struct("<BBQI"), struct.Struct("<I")  # of a record, little endian
-MAX_RECORD = 1 << 16  # bytes of a record; the recorder splits what is longer
+BAUD_RATES = {"lidar": 115200, "emir": 57600}  # defaults [bit/s]
+# A record, little endian: u8 kind, u8 channel, u64 time of the monotonic clock [ns], u32 length,
+# data, u32 CRC-32 checksum of all preceding fields.
+HEADER, CRC = struct.Struct("<BBQI"), struct.Struct("<I")
+MAX_RECORD = 1 << 16  # bytes of a record; the recorder splits longer data
 
 
 class RecordingError(SourceError):
-    """File that is no raw recording, or a damaged one."""
+    """The file is not a raw recording or is corrupted."""
 
 
 @dataclass(frozen=True)
 class Record:
-    """Timestamped record: ``kind`` RX, TX or EVENT, ``channel`` "lidar" or "emir"."""
+    """Timestamped record with a ``kind`` (RX, TX, EVENT) and ``channel`` ("lidar", "emir")."""
 
     kind: int
     channel: str
@@ -35,24 +33,23 @@ class Record:
 
     @property
     def time(self):
-        """Timestamp [s], float."""
+        """Timestamp [s]."""
         return self.time_ns / 1e9
 
     def pack(self):
-        """Encode the record, with its CRC."""
         head = HEADER.pack(self.kind, CHANNELS.index(self.channel), self.time_ns, len(self.data))
         return head + self.data + CRC.pack(zlib.crc32(head + self.data))
 
 
 @dataclass(frozen=True)
 class Recording:
-    """Raw recording that was read from a file.
+    """A raw recording that was read from a file.
 
     Parameters
     ----------
     header : dict
-    records : list of Record, in the order they were written
-    truncated : str, where and how the file is truncated; empty when it is not
+    records : list of Record, in the order of writing
+    truncated : str, where and how the file is truncated; empty for a complete file
     """
 
     header: dict
@@ -60,47 +57,36 @@ class Recording:
     truncated: str = ""
 
     def of(self, channel, *kinds):
-        """Records of a channel, of the given kinds or of all: list of Record."""
+        """Return the records of a channel, of the given kinds or of all kinds."""
         kinds = kinds or (RX, TX, EVENT)
         return [r for r in self.records if r.channel == channel and r.kind in kinds]
 
     def received(self, channel):
-        """Bytes received from a device, all of them."""
         return b"".join(record.data for record in self.of(channel, RX))
 
     def baud(self, channel):
-        """Baud rate of a device's line, int [bit/s]."""
-        usual = {"lidar": 115200, "emir": 57600}[channel]
-        return self.header.get("devices", {}).get(channel, {}).get("baud", usual)
+        """Return the baud rate of the line to a device [bit/s]."""
+        known = self.header.get("devices", {}).get(channel, {})
+        return known.get("baud") or BAUD_RATES[channel]
 
     @property
     def begin(self):
-        """Time of the first record [s], float."""
+        """Time of the first record [s]."""
         return self.records[0].time if self.records else 0.0
 
     @property
     def seconds(self):
-        """Duration [s], float."""
+        """Duration [s]."""
         return self.records[-1].time - self.begin if self.records else 0.0
 
 
 def header_line(header):
-    """Encode a header as the first line of a file, with its CRC checksum.
-
-    Parameters
-    ----------
-    header : dict
-
-    Returns
-    -------
-    bytes
-    """
     header = {"format": FORMAT, "version": VERSION} | header
     return json.dumps(header | {"crc32": _crc(header)}).encode() + b"\n"
 
 
 def is_recording(content):
-    """Whether a file's content is a raw recording, by its header: bool."""
+    """Return whether the content of a file begins with the header of a raw recording."""
     try:
         return json.loads(content.split(b"\n", 1)[0])["format"] == FORMAT
     except (ValueError, TypeError, KeyError, RecursionError):
@@ -108,12 +94,12 @@ def is_recording(content):
 
 
 def load(path, salvage=False):
-    """Load a raw recording, plain or gzip; one truncated in mid-record is read up to there.
+    """Load a raw recording, plain or gzip; a truncated file gives all complete records.
 
     Parameters
     ----------
     path : str or Path
-    salvage : bool, whether of a damaged one what comes before the damage will do
+    salvage : bool, whether to return the records before the first corrupted one
 
     Returns
     -------
@@ -121,20 +107,19 @@ def load(path, salvage=False):
 
     Raises
     ------
-    SourceError : it cannot be read
-    RecordingError : it is none, or a record is damaged: the text says which
+    SourceError, RecordingError
     """
     content, truncated = read_bytes(path)
-    packing = "its gzip packing is damaged or truncated" if truncated else ""
-    return parse(content, str(path), salvage, packing)
+    compression = f"{path}: the gzip compression is corrupted or truncated" if truncated else ""
+    return parse(content, str(path), salvage, compression)
 
 
 def parse(content, name="the recording", salvage=False, truncated=""):
-    """Parse a raw recording from a file's content; parameters as :func:`load`."""
+    """Parse a file's content into a Recording; arguments as in :func:`load`."""
     line, newline, rest = content.partition(b"\n")
     header = _header(line, name)
     if not newline:
-        return Recording(header, [], f"{name} ends in its header")
+        return Recording(header, [], f"{name} is truncated in its header")
     records, at = [], 0
     for number in count(1):
         if at == len(rest):
@@ -142,12 +127,13 @@ def parse(content, name="the recording", salvage=False, truncated=""):
         where = f"record {number} (byte {len(line) + 1 + at})"
         record, size = _record(rest, at)
         if record is None:
-            damaged = size is None or _record_follows(rest, at + 1)
-            if damaged and not salvage:
+            corrupted = size is None or _record_follows(rest, at + 1)
+            if corrupted and not salvage:
                 raise RecordingError(
-                    f"{name}: {where} is damaged; the {number - 1} before it are whole"
+                    f"{name}: {where} is corrupted; the {number - 1} previous records are intact"
                 )
-            truncated = f"{name}: {where} is damaged" if damaged else f"{name} ends in {where}"
+            how = f": {where} is corrupted" if corrupted else f" is truncated in {where}"
+            truncated = f"{name}{how}"
             break
         records.append(record)
         at += size
@@ -161,16 +147,16 @@ def _header(line, name):
         if header["format"] != FORMAT:
             raise ValueError
     except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
-        raise RecordingError(f"{name} is no raw recording, or its header is damaged") from None
+        raise RecordingError(f"{name} is not a raw recording, or its header is corrupted") from None
     if crc != _crc(header):
-        raise RecordingError(f"{name}: its header, the first line, is damaged")
+        raise RecordingError(f"{name}: the header (first line) is corrupted")
     if version != VERSION:
-        raise RecordingError(f"{name} is of version {version}; this slamlab reads {VERSION}")
+        raise RecordingError(f"{name} has version {version}; this slamlab reads version {VERSION}")
     return header
 
 
 def _record(data, at):
-    """Record at a place and its size; None where it is truncated; None, None where damaged."""
+    """Return a record and its size; (None, 0) if it is truncated, (None, None) if corrupted."""
     if len(data) - at < HEADER.size:
         return None, 0
     kind, channel, time_ns, length = HEADER.unpack_from(data, at)
@@ -186,7 +172,7 @@ def _record(data, at):
 
 
 def _record_follows(data, at):
-    """Whether a whole record follows: then what ends too early is damaged, not truncated."""
+    """Return whether a later record is valid: then the file is not truncated but corrupted."""
     return any(_record(data, k)[0] is not None for k in range(at, len(data)))
 
 

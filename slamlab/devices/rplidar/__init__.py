@@ -1,12 +1,13 @@
-"""RPLIDAR driver and protocol of Slamtec's laser scanner; ``RPLidar`` gives whole revolutions.
+"""Driver and protocol of the RPLIDAR, Slamtec's laser scanner (lidar).
 
 Read in this order:
 
-- ``requests``, ``responses``; ``request_parser`` and ``response_finder`` find them in a stream
-- ``link``: ask and answer; ``identification``: the handshake; ``scan_modes``: which there are
-- ``measurement_nodes``, ``capsules``: decoders; ``timestamping``: when each point was measured
-- ``revolutions``: points to whole scans; ``scan_stream``: bytes to scans
-- ``session``: one connection; ``driver``: RPLidar
+- ``requests``, ``responses``: framing, checksum, parsers
+- ``link``: request and response; ``identification``: handshake, health check; ``scan_modes``
+- ``measurement_nodes``, ``capsules``, ``hq_capsules``: decoders of packets
+- ``timestamping``: time synchronisation of the samples with the host's clock
+- ``revolutions``: scans from samples; ``scan_stream``: scans from bytes
+- ``session``: baud-rate detection, one connection; ``driver``: RPLidar
 """
 
 from slamlab.devices.rplidar.driver import RPLidar

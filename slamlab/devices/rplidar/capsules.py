@@ -1,7 +1,7 @@
-"""Decoders of capsules, the express modes' packets: start angle, many distances, checksum.
+"""Decoders of capsules, packets of the express modes with start angle, distances, checksum.
 
-A capsule's angles need the one that follows. Where Slamtec's document and its SDK differ this is
-the SDK's way: offsets are unsigned, points counted from 0.
+Where Slamtec's document and SDK differ, the decoders follow the SDK: angle offsets are unsigned,
+and sample numbers start at 0.
 """
 
 from functools import reduce
@@ -9,76 +9,59 @@ from operator import xor
 
 import numpy as np
 
-from slamlab.devices.rplidar.measurement_nodes import NO_NODES, NODE_DTYPE, TURN_Q6, Decoder
+from slamlab.devices.rplidar.measurement_nodes import (
+    NO_NODES,
+    NODE_DTYPE,
+    TURN_Q6,
+    PacketDecoder,
+)
 
-QUALITY = 0x2F  # of a point that has a distance: capsules carry none
-SYNC_NIBBLES = (0xA, 0x5)  # high halves of a capsule's first two bytes
-HEADER_SIZE = 4  # bytes before the distances
-MAX_STEP_RATIO = 1.3  # of two capsules in a row; beyond it some between were lost
+QUALITY = 0x2F  # quality of a sample with a distance: capsules carry none
+MAX_STEP_RATIO = 1.3  # of the angles of two successive capsules; beyond it capsules were lost
 
 
-class CapsuleDecoder(Decoder):
-    """Base class of the capsule decoders: finds capsules, checks checksums, decodes them in pairs.
+class CapsuleDecoder(PacketDecoder):
+    """Base class of the capsule decoders. Equation (14.3).
 
-    Equation (14.3).
-
-    Subclasses say what ``points`` a capsule holds and how distances are packed.
+    The angles of a capsule are interpolated up to the start angle of the next capsule. ``header``:
+    number of bytes before the distances; the last two contain the start angle.
     """
 
-    points = 0
+    header = 4
 
     def __init__(self):
         super().__init__()
-        self._previous, self._angle_step, self._in_sync, self._gap = None, None, True, False
+        self._previous, self._angle_step = None, None
 
     @property
     def delay(self):
-        """Delay: samples from the last node returned to the packet's end, one capsule."""
+        """The latency of the decoder, one capsule [samples]."""
         return self.points
 
     def _decode(self):
-        while (capsule := self._next_capsule()) is not None:
+        while (capsule := self._next_packet()) is not None:
             nodes = self._decode_previous(capsule)
             if len(nodes):
                 yield nodes
 
-    def _next_capsule(self):
-        """Next capsule whose checksum is right, or None."""
-        while self._buffer:
-            # a single byte is judged too: waiting for a second, the count would hang on the cuts
-            pairs = zip(self._buffer, SYNC_NIBBLES, strict=False)
-            if all(byte >> 4 == nibble for byte, nibble in pairs):
-                if len(self._buffer) < self.size:
-                    return None
-                capsule = self._buffer[: self.size]
-                if reduce(xor, capsule[2:]) == (capsule[0] & 15 | (capsule[1] & 15) << 4):
-                    self._buffer = self._buffer[self.size :]
-                    self._in_sync = True
-                    return capsule
-                self.damage["bad checksums"] += 1
-            self._resynchronise()
-        return None
+    def _checksum_is_valid(self, packet):
+        """Verify the XOR checksum of an express capsule."""
+        return reduce(xor, packet[2:]) == (packet[0] & 15 | (packet[1] & 15) << 4)
 
     def _resynchronise(self):
-        """Drop bytes up to the next possible start of a capsule, which can lie in a damaged one."""
-        if self._in_sync:
-            self.damage["resyncs"] += 1
-        self._in_sync, self._previous, self._gap = False, None, True
-        at = 1
-        while at < len(self._buffer) and self._buffer[at] >> 4 != SYNC_NIBBLES[0]:
-            at += 1
-        self._drop(at)
+        self._previous = None
+        super()._resynchronise()
 
     def _decode_previous(self, capsule):
-        """Decode the capsule before, now that the start angle after it is known."""
+        """Decode the previous capsule, given the start angle of this capsule."""
         previous, self._previous = self._previous, capsule
-        if capsule[3] & 0x80:  # S: measuring has begun anew, what was before does not belong to it
-            previous = None
+        if capsule[self.header - 1] & 0x80:  # S: the measurement was restarted
+            previous = None  # belongs to the earlier one
         if previous is None:
             self._angle_step = None
             return NO_NODES
-        start = _start_q8(previous)
-        angle_step = (_start_q8(capsule) - start) % (TURN_Q6 << 2)
+        start = self._start_q8(previous)
+        angle_step = (self._start_q8(capsule) - start) % (TURN_Q6 << 2)
         before = self._angle_step or angle_step
         jumped = not before <= MAX_STEP_RATIO * angle_step <= MAX_STEP_RATIO**2 * before
         self._angle_step = angle_step
@@ -87,61 +70,77 @@ class CapsuleDecoder(Decoder):
             return NO_NODES
         return self._nodes(start, angle_step, *self._unpack(previous, capsule))
 
-    def _nodes(self, start_q8, turned_q8, distance_q2, offset_q16):
-        """Nodes from distances (points,) and what to take off their angles (points,) or 0."""
+    def _start_q8(self, capsule):
+        """Return the start angle of a capsule [1/256 degree]."""
+        return (int.from_bytes(capsule[self.header - 2 : self.header], "little") & 0x7FFF) << 2
+
+    def _nodes(self, start_q8, turned_q8, distance_q2, offset_q16, quality=QUALITY):
         step = (turned_q8 << 8) // self.points
         angle = (start_q8 << 8) + step * np.arange(self.points)
         nodes = np.empty(self.points, NODE_DTYPE)
         nodes["angle_q6"] = (angle - offset_q16 >> 10) % TURN_Q6
         nodes["distance_q2"] = distance_q2
-        nodes["quality"] = np.where(distance_q2 > 0, QUALITY, 0)
+        nodes["quality"] = np.where(distance_q2 > 0, quality, 0)
         after = (angle + step) % (TURN_Q6 << 10)
         nodes["start"] = after < step
-        # where the step was cut off, 0° may lie between this capsule's end and the next one's start
+        # the step is truncated: 0° may lie between the end of this capsule and the next start angle
         nodes["start"][-1] |= ((start_q8 + turned_q8) << 8) % (TURN_Q6 << 10) < after[-1]
-        nodes["after_gap"] = False
-        nodes["after_gap"][0], self._gap = self._gap, False
-        return nodes
+        return self._marked(nodes)
 
     def _unpack(self, capsule, following):
-        """Distances (points,) [1/4 mm] and offsets of the angles [1/65536 degree]."""
+        """Return distances [1/4 mm], angle offsets [1/65536 degree] and, optionally, qualities."""
         raise NotImplementedError
 
 
 class ExpressDecoder(CapsuleDecoder):
-    """Decoder of legacy capsules: 16 cabins of two distances [mm] and two offsets [1/8 degree]."""
+    """Legacy express capsules: 16 cabins with two distances [mm] and two offsets [1/8 degree]."""
 
     size, points = 84, 32
 
     def _unpack(self, capsule, following):
-        cabin = np.frombuffer(capsule, np.uint8, offset=HEADER_SIZE).reshape(-1, 5).astype(np.int32)
-        words = cabin[:, 0:4:2] | cabin[:, 1:4:2] << 8
-        low = np.column_stack([cabin[:, 4] & 15, cabin[:, 4] >> 4])
-        offset_q3 = (words & 3) << 4 | low
+        words, nibbles = _cabins(capsule[self.header :])
+        offset_q3 = (words & 3) << 4 | nibbles
         return (words & 0xFFFC).ravel(), offset_q3.ravel() << 13
 
 
 class DenseDecoder(CapsuleDecoder):
-    """Decoder of dense capsules: 40 distances [mm], no offsets."""
+    """Dense capsules: 40 distances [mm] without offsets."""
 
     size, points = 84, 40
 
     def _unpack(self, capsule, following):
-        return np.frombuffer(capsule, "<u2", offset=HEADER_SIZE).astype(np.int32) << 2, 0
+        return np.frombuffer(capsule, "<u2", offset=self.header).astype(np.int32) << 2, 0
+
+
+class UltraDenseDecoder(CapsuleDecoder):
+    """Ultra-dense capsules: 32 cabins with two distances in four scales, and qualities.
+
+    Slamtec's SDK also averages neighbours that differ by at most 2 mm, the smallest step.
+    """
+
+    size, points, header = 170, 64, 10
+
+    def _unpack(self, capsule, following):
+        low, high = _cabins(capsule[self.header :])
+        words = (low | high << 16).ravel()
+        scale = words & 3
+        first_mm, step_mm = DENSE_SCALES[scale].T
+        code = words >> 2 & (1 << 10 + scale) - 1
+        return first_mm + step_mm * code << 2, 0, words >> 12 + scale << scale >> 2
 
 
 class UltraDecoder(CapsuleDecoder):
-    """Decoder of ultra capsules: 32 words of a distance, two differences, to it and the next."""
+    """Ultra capsules (boost mode): 32 words with a distance and two differences to neighbours."""
 
     size, points = 132, 96
 
     def _unpack(self, capsule, following):
-        data = capsule[HEADER_SIZE:] + following[HEADER_SIZE : HEADER_SIZE + 4]
+        data = capsule[self.header :] + following[self.header : self.header + 4]
         words = np.frombuffer(data, "<u4")
         words = words.astype(np.int64)
         major, level = MAJORS_MM[words & 0xFFF], SCALE_LEVELS[words & 0xFFF]
         base, following = major[:-1], major[1:]
-        borrowed = (base == 0) & (following > 0)  # the first difference has nothing to differ from
+        borrowed = (base == 0) & (following > 0)  # the first difference refers to the next distance
         near = np.where(borrowed, following, base)
         near_level = np.where(borrowed, level[1:], level[:-1])
         first, second = (_signed10(words[:-1] >> shift) for shift in (12, 22))
@@ -156,22 +155,15 @@ class UltraDecoder(CapsuleDecoder):
         return distance_q2, ultra_offset_q16(distance_q2)
 
 
-def _start_q8(capsule):
-    """Start angle of a capsule [1/256 degree]."""
-    return (int.from_bytes(capsule[2:4], "little") & 0x7FFF) << 2
+def _cabins(data):
+    """Split n cabins of five bytes into words (n, 2) and nibbles (n, 2)."""
+    cabin = np.frombuffer(data, np.uint8).reshape(-1, 5).astype(np.int32)
+    words = cabin[:, 0:4:2] | cabin[:, 1:4:2] << 8
+    return words, np.column_stack([cabin[:, 4] & 15, cabin[:, 4] >> 4])
 
 
 def ultra_offset_q16(distance_q2):
-    """Parallax of the optics: how far a point lies behind the angle at which it was taken.
-
-    Parameters
-    ----------
-    distance_q2 : (n,) int [1/4 mm]
-
-    Returns
-    -------
-    (n,) int [1/65536 degree]
-    """
+    """Return the angle offsets [1/65536 degree] due to parallax at distances (n,) int [1/4 mm]."""
     k = 98361 // np.maximum(distance_q2, 1)
     far = EIGHT_DEGREES - (k << 6) - k**3 // 98304
     radians = np.where(distance_q2 < 200, SEVEN_AND_A_HALF_DEGREES, far)
@@ -190,8 +182,10 @@ def _usable(difference):
     return (difference != -512) & (difference != 511)
 
 
+# scales of ultra-dense distances, each one bit wider than the previous: first distance, step [mm]
+DENSE_SCALES = np.array([(0, 2), (2046, 3), (8187, 4), (24567, 5)])
+# variable bit scale of 12-bit distances: first code, its distance [mm], bits of scaling
 VARBIT_BANDS = ((3328, 16384, 4), (1792, 4096, 3), (1280, 2048, 2), (512, 512, 1), (0, 0, 0))
-"""Variable bit scale of 12-bit distances: first code, its distance [mm], bits of scaling."""
 
 
 def _varbit_tables():

@@ -1,78 +1,49 @@
-"""Request and response over a port to an RPLIDAR that does not scan: send, wait, drain, reset."""
+"""Request/response link over a port to an RPLIDAR that does not scan."""
 
 from slamlab.devices.rplidar.requests import Command, request
-from slamlab.devices.rplidar.response_finder import ResponseFinder
+from slamlab.devices.rplidar.responses import ResponseFinder
 
-QUIET_TIME = 0.1  # without data after which the line counts as drained [s]
-DRAIN_TIMEOUT = 2.0  # longest wait for that [s]
-BOOT_TIME = 0.5  # after a RESET it is silent for a while before its boot text [s]
+QUIET_TIME = 0.1  # time without data after which the line is drained [s]
+DRAIN_TIMEOUT = 2.0  # longest time of draining [s]
+BOOT_TIME = 0.5  # after a RESET, until the boot text is sent [s]
 READ_SIZE = 4096  # bytes read at a time
 
 
 class Link:
-    """Request/response link over a port.
-
-    Parameters
-    ----------
-    port : Transport
-    clock : Clock
-
-    ``last_bytes`` are the last 64 received, to tell in an error what the device may be.
-    """
+    """Request/response link over a port; ``last_bytes``: the last 64 received bytes."""
 
     def __init__(self, port, clock):
         self.port, self.clock, self.last_bytes = port, clock, b""
 
     def send(self, data):
-        """Send a request that has no response."""
         self.port.write(data)
 
-    def stop_and_drain(self):
-        """Stop a scan and drain what is still on its way.
-
-        Returns
-        -------
-        bool, whether the line fell silent
-        """
+    def stop_and_drain(self, timeout=DRAIN_TIMEOUT):
+        """Stop a scan, drain the line and return whether it became quiet within timeout [s]."""
         self.send(request(Command.STOP))
-        return self.drain()
+        return self.drain(timeout=timeout)
 
-    def drain(self, at_least=0.0):
-        """Drain the line: discard what comes until nothing does.
+    def drain(self, at_least=0.0, timeout=DRAIN_TIMEOUT):
+        """Discard received bytes for a minimum time [s], and then until the line is quiet.
 
-        Parameters
-        ----------
-        at_least : float, so long whatever comes [s]
-
-        Returns
-        -------
-        bool, whether it fell silent in time
+        Returns whether the line became quiet within the timeout [s].
         """
         begin = self.clock.now()
-        while self.clock.now() - begin < DRAIN_TIMEOUT:
+        while self.clock.now() - begin < timeout:
             if not self._read(QUIET_TIME) and self.clock.now() - begin >= at_least:
                 return True
         return False
 
     def reset(self):
-        """Reset the device and discard the text that it boots with."""
+        """Reset the device, and discard the text that it sends while it boots."""
         self.send(request(Command.RESET))
         self.drain(BOOT_TIME)
 
     def query(self, data, type, timeout, loop=False, length=None):
-        """Send a request and wait for its response, at most until the timeout.
+        """Send a request and wait for the response, but no longer than the timeout [s].
 
-        Parameters
-        ----------
-        data : bytes, the request
-        type : AnswerType, or a collection of those that will do
-        timeout : float [s]
-        loop : bool, whether an endless answer is wanted
-        length : int, of the payload, or None where that is free
-
-        Returns
-        -------
-        ResponseFinder and (Descriptor, payload), or ResponseFinder and None when it did not come
+        ``type``, ``loop`` and ``length`` are those of :class:`ResponseFinder`. Returns the finder,
+        and the response or, after the timeout, None.
         """
         finder = ResponseFinder(type, loop, length)
         self.send(data)

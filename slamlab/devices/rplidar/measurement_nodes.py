@@ -1,7 +1,7 @@
-"""Measurement nodes (samples: angle, distance, quality) and the decoder of the standard scan.
+"""Measurement nodes (angle, distance, quality) and the decoder of the standard scan.
 
-A decoder knows no port and no time: bytes in, nodes out. However the bytes are cut, the same nodes
-come; damage is counted and never an exception.
+The decoded nodes do not depend on how many bytes each read returns. Decoders count corrupted
+bytes and continue by resynchronising; they raise no exception.
 """
 
 from collections import Counter
@@ -12,23 +12,23 @@ TURN_Q6 = 360 * 64  # a revolution in the unit of a node's angle [1/64 degree]
 NODE_DTYPE = np.dtype(
     [
         ("angle_q6", "<i4"),  # clockwise from the sensor's front [1/64 degree]
-        ("distance_q2", "<i4"),  # [1/4 mm]; 0: nothing came back
+        ("distance_q2", "<i4"),  # [1/4 mm]; 0: no return
         ("quality", "u1"),
-        ("start", "?"),  # a turn begins here
-        ("after_gap", "?"),  # something was lost before this one
+        ("start", "?"),  # start flag: a revolution begins here
+        ("after_gap", "?"),  # bytes were lost before this node
     ]
 )
-BLOCK_SIZE = 1024  # bytes decoded at a time: the work stays linear
+BLOCK_SIZE = 1024  # bytes decoded at a time: the run time stays linear
 NO_NODES = np.empty(0, NODE_DTYPE)  # result where no packet is complete
 NO_ANGLES = np.array([-1, -2, -3])  # angles that no node has
+CAPSULE_MARKS = (0xF0, 0xA0), (0xF0, 0x50)  # sync pattern of a capsule: mask, value of each byte
 
 
 class Decoder:
-    """Base class of the stream decoders: bytes in, measurement nodes out, resynchronising.
+    """Base class of decoders from byte streams to measurement nodes, with resynchronisation.
 
-    ``size`` is a packet's length in bytes, ``late`` how many samples after the last node that it
-    returned a decoder is given the packet that completed it. ``damage`` counts ``resyncs``,
-    ``bytes dropped`` and ``bad checksums``; ``received`` counts bytes.
+    ``size``: packet size [byte]; ``delay``: number of samples from the last returned node to
+    the end of its packet.
     """
 
     size, delay = 0, 0
@@ -40,20 +40,11 @@ class Decoder:
 
     @property
     def pending(self):
-        """Number of bytes received of a packet that is not complete."""
+        """Number of bytes received so far of an incomplete packet."""
         return len(self._buffer)
 
     def feed(self, data):
-        """Decode bytes as they come.
-
-        Parameters
-        ----------
-        data : bytes
-
-        Returns
-        -------
-        (n,) array of NODE_DTYPE, those that became complete
-        """
+        """Decode bytes and return the complete nodes (n,), an array of NODE_DTYPE."""
         self.received += len(data)
         found = []
         for at in range(0, len(data), BLOCK_SIZE):
@@ -64,7 +55,7 @@ class Decoder:
         return np.concatenate(found) if found else NO_NODES
 
     def _decode(self):
-        """Yield arrays of nodes from the buffer and shorten it."""
+        """Yield arrays of nodes, and remove the decoded bytes from the buffer."""
         raise NotImplementedError
 
     def _drop(self, n):
@@ -72,21 +63,66 @@ class Decoder:
         self._buffer = self._buffer[n:]
 
 
+class PacketDecoder(Decoder):
+    """Base class of packet decoders, with framing by sync pattern and checksum verification.
+
+    A packet has ``points`` samples and begins with ``marks`` (mask, value).
+    """
+
+    points, marks = 0, CAPSULE_MARKS
+
+    def __init__(self):
+        super().__init__()
+        self._in_sync, self._gap = True, False
+
+    def _next_packet(self):
+        while self._buffer:
+            # a single byte is checked as well, so that the counts do not depend on the reads
+            if all(b & mask == v for b, (mask, v) in zip(self._buffer, self.marks, strict=False)):
+                if len(self._buffer) < self.size:
+                    return None
+                packet = self._buffer[: self.size]
+                if self._checksum_is_valid(packet):
+                    self._buffer = self._buffer[self.size :]
+                    self._in_sync = True
+                    return packet
+                self.damage["bad checksums"] += 1
+            self._resynchronise()
+        return None
+
+    def _checksum_is_valid(self, packet):
+        """Verify the checksum of a packet."""
+        raise NotImplementedError
+
+    def _resynchronise(self):
+        """Drop bytes up to the next possible start, which may be inside a corrupted packet."""
+        if self._in_sync:
+            self.damage["resyncs"] += 1
+        self._in_sync, self._gap = False, True
+        at, (mask, value) = 1, self.marks[0]
+        while at < len(self._buffer) and self._buffer[at] & mask != value:
+            at += 1
+        self._drop(at)
+
+    def _marked(self, nodes):
+        """Mark a packet's first node if bytes were lost before it; return the packet's nodes."""
+        nodes["after_gap"] = False
+        nodes["after_gap"][0], self._gap = self._gap, False
+        return nodes
+
+
 class ScanDecoder(Decoder):
-    """Decoder of SCAN and FORCE_SCAN: nodes of five bytes, resynchronised after lost bytes.
+    """Decoder of the standard scan (SCAN, FORCE_SCAN): nodes of five bytes with check bits.
 
     Equations (14.1) and (14.2).
-
-    The first byte holds S, not S and quality, the next two C = 1 and the angle, the last two the
-    distance. A quarter of all random bytes passes those check bits, so that synchronisation once
-    lost is found again only where RUN nodes in a row fit and their angles advance a little; and
-    where RUN angles in a row are the same, equal distances are being read as nodes: it is lost.
     """
 
     size = 5
+    # A quarter of random bytes passes the check bits. So the decoder is in sync again only after
+    # RUN valid nodes whose angles advance a little. RUN equal angles show a loss of sync.
     RUN = 4
-    WINDOW = RUN * size  # bytes that decide whether it is in sync
-    BACK, AHEAD = 5 * 64, 30 * 64  # how far an angle goes to the next node's [1/64 degree]
+    WINDOW = RUN * size  # bytes by which synchronisation is decided
+    BACK, AHEAD = 5 * 64, 30 * 64  # limits of an angle increment [1/64 degree]
 
     def __init__(self):
         super().__init__()
@@ -101,7 +137,6 @@ class ScanDecoder(Decoder):
                 self._resynchronise()
 
     def _decode_in_sync(self):
-        """Decode nodes up to the first that fails its check bits."""
         rows = np.frombuffer(self._buffer, np.uint8, len(self._buffer) // 5 * 5).reshape(-1, 5)
         flags, angle = rows[:, 0], _u16(rows[:, 1], rows[:, 2])
         bad = np.flatnonzero(~_plausible(flags, angle) | self._repeated_angle(angle))
@@ -122,29 +157,29 @@ class ScanDecoder(Decoder):
         return nodes
 
     def _repeated_angle(self, angle):
-        """Where the angle is that of the three nodes before: (n,) bool."""
+        """Return a mask of the nodes whose angles equal those of their three preceding nodes."""
         run = np.concatenate([self._last_angles, angle])
         self._last_angles = run[1 - self.RUN :]
         return (run[3:] == run[2:-1]) & (run[3:] == run[1:-2]) & (run[3:] == run[:-3])
 
     def _resynchronise(self):
-        """Drop bytes up to where nodes are in sync again, or as far as can be decided."""
+        """Drop bytes up to the first valid nodes or, if there are none, all checked bytes."""
         raw = np.frombuffer(self._buffer, np.uint8)
-        places = len(raw) - self.WINDOW + 1
+        offsets = len(raw) - self.WINDOW + 1
         angle = _u16(raw[1:-1], raw[2:])
         fits, angle = _plausible(raw[:-2], angle), angle >> 1
-        found = np.ones(places, bool)
-        advance = np.zeros(places, np.int32)
+        found = np.ones(offsets, bool)
+        advance = np.zeros(offsets, np.int32)
         for k in range(self.RUN):
-            found &= fits[5 * k : 5 * k + places]
+            found &= fits[5 * k : 5 * k + offsets]
             if k:
-                step = angle[5 * k :][:places] - angle[5 * k - 5 :][:places]
+                step = angle[5 * k :][:offsets] - angle[5 * k - 5 :][:offsets]
                 step = (step + self.BACK) % TURN_Q6 - self.BACK
                 found &= step < self.AHEAD
                 advance += step
         hits = np.flatnonzero(found & (advance > 0))
         self._in_sync = len(hits) > 0
-        self._drop(int(hits[0]) if len(hits) else places)
+        self._drop(int(hits[0]) if len(hits) else offsets)
 
 
 def _u16(low, high):
@@ -152,5 +187,5 @@ def _u16(low, high):
 
 
 def _plausible(flags, angle):
-    """Check bits of nodes: S differs from not S, C is one, and the angle is less than a turn."""
+    """Verify the check bits (S and its inverse, C = 1), and that the angle is below 360°."""
     return ((flags ^ flags >> 1) & 1 == 1) & (angle & 1 == 1) & (angle >> 1 < TURN_Q6)

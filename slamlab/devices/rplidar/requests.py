@@ -1,6 +1,7 @@
-"""Requests (commands) to an RPLIDAR: A5, command; where its top bit is set, payload, checksum.
+"""Requests to an RPLIDAR: framing, XOR checksum, parser.
 
-Slamtec's protocol document; all numbers are little endian.
+A request consists of A5 and a command. If the command's top bit is set, the payload's length, the
+payload and a checksum follow. All numbers are little endian. Source: Slamtec's protocol document.
 """
 
 import struct
@@ -9,11 +10,13 @@ from functools import reduce
 from operator import xor
 
 SYNC = 0xA5  # first byte of every request
-WITH_PAYLOAD = 0x80  # bit of a command that has a payload
+WITH_PAYLOAD = 0x80  # bit of a command with a payload
+NOMINAL_PWM, NOMINAL_RPM = 660, 600  # duty cycle, and the rotation rate at it [1/min]
+PARTIAL_TIMEOUT = 5.0  # after which the parser drops an incomplete request [s]
 
 
 class Command(IntEnum):
-    """Command codes of the A series."""
+    """Command codes."""
 
     EXPRESS_SCAN = 0x82
     FORCE_SCAN = 0x21
@@ -22,6 +25,7 @@ class Command(IntEnum):
     GET_INFO = 0x50
     GET_LIDAR_CONF = 0x84
     GET_SAMPLERATE = 0x59
+    MOTOR_SPEED = 0xA8
     RESET = 0x40
     SCAN = 0x20
     SET_MOTOR_PWM = 0xF0
@@ -29,12 +33,13 @@ class Command(IntEnum):
 
 
 SCAN_COMMANDS = {Command.SCAN, Command.FORCE_SCAN, Command.EXPRESS_SCAN}  # start a scan
-NON_INTERRUPTING = {Command.SET_MOTOR_PWM, Command.GET_ACC_BOARD_FLAG}
-"""Requests that do not interrupt a scan; any other ends it."""
+MOTOR_COMMANDS = {Command.SET_MOTOR_PWM, Command.MOTOR_SPEED}  # without a response
+# requests that do not interrupt a scan; any other request ends it
+NON_INTERRUPTING = MOTOR_COMMANDS | {Command.GET_ACC_BOARD_FLAG}
 
 
 class Conf(IntEnum):
-    """Configuration keys of GET_LIDAR_CONF; those from US_PER_SAMPLE on belong to one scan mode."""
+    """Keys of GET_LIDAR_CONF. The keys from US_PER_SAMPLE refer to one scan mode."""
 
     DESIRED_ROTATION = 0x01
     MODE_COUNT = 0x70
@@ -46,90 +51,80 @@ class Conf(IntEnum):
 
 
 def checksum(data):
-    """Checksum of a request: all bytes XORed.
-
-    Parameters
-    ----------
-    data : bytes
-
-    Returns
-    -------
-    int
-    """
+    """Return the XOR checksum of all bytes."""
     return reduce(xor, data, 0)
 
 
 def request(command, payload=b""):
-    """Encode a request, with payload and checksum, as it goes over the line.
-
-    Parameters
-    ----------
-    command : Command
-    payload : bytes, at most 255; only commands from 0x80 on have one
-
-    Returns
-    -------
-    bytes
-
-    Raises
-    ------
-    ValueError
-    """
+    """Encode a request with a payload of at most 255 bytes. Raises ValueError."""
     if not command & WITH_PAYLOAD:
         if payload:
-            raise ValueError(f"command 0x{command:02X} takes no payload")
+            raise ValueError(f"command 0x{command:02X} must not have a payload")
         return bytes([SYNC, command])
     if len(payload) > 255:
-        raise ValueError(f"a payload has at most 255 bytes, not {len(payload)}")
+        raise ValueError(f"a payload must have at most 255 bytes, not {len(payload)}")
     body = bytes([SYNC, command, len(payload)]) + payload
     return body + bytes([checksum(body)])
 
 
 def express(mode):
-    """Request of an express scan: a mode other than the standard one.
-
-    Parameters
-    ----------
-    mode : int, its number; 0 for firmware that knows no modes
-
-    Returns
-    -------
-    bytes
-    """
+    """Encode EXPRESS_SCAN with a scan mode; firmware without scan modes needs mode 0."""
     return request(Command.EXPRESS_SCAN, struct.pack("<BHH", mode, 0, 0))
 
 
 def motor_pwm(pwm):
-    """Request that sets the motor's PWM (duty cycle), and with it the scan rate.
-
-    Parameters
-    ----------
-    pwm : int, 0 (stands) to 1023; 660 is about 10 turns a second
-
-    Returns
-    -------
-    bytes
-
-    Raises
-    ------
-    ValueError
-    """
+    """Encode the PWM duty cycle for a motor, 0 to 1023; 660 is about 10 Hz. Raises ValueError."""
     if not 0 <= pwm <= 1023:
-        raise ValueError(f"the motor takes 0 to 1023, not {pwm}")
+        raise ValueError(f"the PWM duty cycle of the motor must be from 0 to 1023, not {pwm}")
     return request(Command.SET_MOTOR_PWM, struct.pack("<H", pwm))
 
 
+def motor_speed(rpm):
+    """Encode a rotation rate [1/min] for a lidar with speed control; 0 stops the motor."""
+    return request(Command.MOTOR_SPEED, struct.pack("<H", rpm))
+
+
 def conf(what, mode=None):
-    """Request for one value of the lidar's configuration.
-
-    Parameters
-    ----------
-    what : Conf
-    mode : int, or None for values that belong to no mode
-
-    Returns
-    -------
-    bytes
-    """
+    """Encode a request for the Conf value of a scan mode or of the whole lidar."""
     payload = struct.pack("<I", what) if mode is None else struct.pack("<IH", what, mode)
     return request(Command.GET_LIDAR_CONF, payload)
+
+
+class RequestParser:
+    """Parser that finds requests in a byte stream and verifies their checksum."""
+
+    def __init__(self):
+        self._buffer, self._since = b"", 0.0
+
+    def feed(self, data, now):
+        """Parse bytes received at a given time [s]; return complete requests (command, payload)."""
+        if self._buffer and now - self._since > PARTIAL_TIMEOUT:
+            self._buffer = b""
+        if data and not self._buffer:
+            self._since = now
+        self._buffer += data
+        found = []
+        while (request := self._next()) is not None:
+            found.append(request)
+            self._since = now
+        return found
+
+    def _next(self):
+        while True:
+            self._buffer = self._buffer[self._buffer.find(SYNC) :] if SYNC in self._buffer else b""
+            if len(self._buffer) < 2:
+                return None
+            command = self._buffer[1]
+            if not command & WITH_PAYLOAD:
+                self._buffer = self._buffer[2:]
+                if command != SYNC:
+                    return command, b""
+                continue
+            if len(self._buffer) < 3:
+                return None
+            end = 4 + self._buffer[2]
+            if len(self._buffer) < end:
+                return None
+            whole, self._buffer = self._buffer[:end], self._buffer[end:]
+            if checksum(whole[:-1]) == whole[-1]:
+                return command, whole[3:-1]

@@ -1,27 +1,27 @@
-// Answers are stored folded; those of a question unfold when it is answered (slamlab.checks.ask).
+// Folded answers: the answers to a question unfold when it is answered (classroom.checks.ask).
 
-import { forEachElement } from "./watching.js";
+import { forEachElement } from "./observing.js";
 
 const answerOf = (cell) => cell.model.getMetadata("slamlab")?.answers;
 const isText = (cell) => cell.model.type === "markdown";
-const foldedTexts = new WeakSet(); // as they were before the last key or press
+const foldedTexts = new WeakSet(); // texts that were folded before the last key or click
 
 export function openAnswers(panel) {
-  forEachElement(panel, ".jp-Cell", (node) => { // its place says what opens it: style.css
+  forEachElement(panel, ".jp-Cell", (node) => { // style.css uses it for the placeholder
     const cell = panel.content.widgets.find((each) => each.node === node);
     if (cell && answerOf(cell)) node.dataset.slamlabAnswers = answerOf(cell);
   });
-  forEachElement(panel, "[data-slamlab-answered]", (told) => {
+  forEachElement(panel, "[data-slamlab-answered]", (answered) => {
     for (const cell of panel.content.widgets) {
-      if (answerOf(cell) !== told.dataset.slamlabAnswered) continue;
+      if (answerOf(cell) !== answered.dataset.slamlabAnswered) continue;
       if (cell.outputHidden) cell.outputHidden = false;
-      if (isText(cell) && cell.inputHidden) cell.inputHidden = false; // code is folded for itself
+      if (isText(cell) && cell.inputHidden) cell.inputHidden = false; // code is folded separately
       foldedTexts.delete(cell);
     }
   });
 }
 
-// JupyterLab opens a cell that is run: an answer that was folded is folded again, until it is asked for.
+// JupyterLab unfolds a cell that is run; an answer that was folded is folded again.
 export function keepFolded(NotebookActions, tracker) {
   const look = () => tracker.forEach((panel) => {
     for (const cell of panel.content.widgets.filter(isText)) {
@@ -29,8 +29,8 @@ export function keepFolded(NotebookActions, tracker) {
     }
   });
   for (const event of ["keydown", "pointerdown"]) document.addEventListener(event, look, true);
-  let before; // how the answers were when a run began; cells that run together are opened at once
-  const begun = (_, { notebook }) => {
+  let before; // state of the answers before a run; cells of one run are unfolded together
+  const runStarted = (_, { notebook }) => {
     if (before) return;
     before = notebook.widgets.filter(answerOf).map(
       (cell) => [cell, cell.outputHidden, cell.inputHidden || foldedTexts.has(cell)]);
@@ -42,6 +42,6 @@ export function keepFolded(NotebookActions, tracker) {
       before = undefined;
     });
   };
-  NotebookActions.executionScheduled.connect(begun); // of code
-  NotebookActions.executed.connect(begun); // of text, which is not scheduled, and open by then
+  NotebookActions.executionScheduled.connect(runStarted); // of code
+  NotebookActions.executed.connect(runStarted); // of text cells, which are not scheduled
 }

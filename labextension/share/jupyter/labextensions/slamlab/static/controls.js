@@ -1,22 +1,22 @@
-// Names for what a reader without a screen meets, and plain words where no kernel moves controls.
+// Accessible names of cells and controls, and a hint for widgets without a kernel.
 
-import { forEachElement } from "./watching.js";
+import { forEachElement } from "./observing.js";
 
 const TEXT = ".jp-OutputArea-output, .jp-MarkdownOutput";
 const OUTPUT = ".jp-OutputArea-output";
-const DEAD = "Run this cell for its controls.";
+const HINT = "Run this cell for its controls.";
 
 export function nameParts(panel) {
-  // JupyterLab calls the cells a feed, whose parts must be articles, and names no editor
+  // JupyterLab's cell list has the role feed, whose children must be articles; editors have no names
   forEachElement(panel, ".jp-Cell", (cell) => cell.setAttribute("role", "article"));
   forEachElement(panel, ".jp-Cell .cm-content", (editor) => {
     const code = editor.closest(".jp-CodeCell");
     editor.setAttribute("aria-label", code ? "code" : "text");
   });
   forEachElement(panel, ".jp-collapseHeadingButton", (button) => {
-    button.setAttribute("aria-label", "fold this section");
+    button.setAttribute("aria-label", "Fold this section");
   });
-  // what is too wide and scrolls is reached without a mouse; a formula grows when it is typeset
+  // wide outputs scroll and need keyboard focus; a formula grows when it is typeset
   forEachElement(panel, `:is(${TEXT}), :is(${TEXT}) mjx-container`, (part) => {
     const text = part.closest(TEXT);
     new ResizeObserver(() => {
@@ -34,42 +34,42 @@ export function nameControls(panel) {
     const readout = slider.querySelector(".widget-readout");
     readout?.setAttribute("aria-label", `${label}, as a number`);
     readout?.setAttribute("role", "textbox");
-    // it would be read out with 16 digits
+    // screen readers would read 16 digits
     const VALUE = "aria-valuetext";
-    const tell = () => {
+    const update = () => {
       const text = readout?.textContent;
       if (text && handle.getAttribute(VALUE) !== text) handle.setAttribute(VALUE, text);
     };
-    tell();
-    new MutationObserver(tell).observe(handle, { attributeFilter: [VALUE] });
+    update();
+    new MutationObserver(update).observe(handle, { attributeFilter: [VALUE] });
   });
-  // a field without a label: what is shown when the mouse rests on it
+  // a field without a label is named by its tooltip
   forEachElement(panel, ".jupyter-widgets textarea[title]", (field) => {
     field.setAttribute("aria-label", field.title);
   });
 }
 
-// Keys on a control in an output are its own: JupyterLab, which listens first, would cut a cell by x
-// and go to the next by an arrow. It looks for shortcuts from the focus outwards, up to this mark.
+// Keep keys for a control in an output: otherwise JupyterLab would cut a cell by x, or select the next
+// one by an arrow. It looks for shortcuts from the focused element up to this attribute.
 export function keepKeys() {
   const keep = (event) => {
     const { target } = event;
-    if (!target.parentElement?.closest(OUTPUT)) return; // wide text is an output itself
+    if (!target.parentElement?.closest(OUTPUT)) return; // wide text is itself the output
     const lab = event.ctrlKey || event.metaKey || event.altKey || (event.shiftKey && event.key === "Enter");
     target.toggleAttribute("data-lm-suppress-shortcuts", !lab || Boolean(target.closest(".slamlab-deck")));
   };
   window.addEventListener("keydown", keep, true);
 }
 
-export function tellDeadWidgets(panel) {
-  // the line that stands for a widget whose kernel is gone, as after a notebook is opened again
+export function explainDeadWidgets(panel) {
+  // replace the error of a widget without a kernel, as after a notebook is opened again
   forEachElement(panel, ".jp-OutputArea-output.jupyter-widgets", (output) => {
-    const tell = () => {
+    const update = () => {
       if (!/^Error displaying widget/.test(output.textContent)) return;
-      output.textContent = DEAD;
+      output.textContent = HINT;
       output.classList.add("slamlab-dead");
     };
-    tell();
-    new MutationObserver(tell).observe(output, { childList: true, characterData: true, subtree: true });
+    update();
+    new MutationObserver(update).observe(output, { childList: true, characterData: true, subtree: true });
   });
 }

@@ -1,4 +1,4 @@
-// Elements of a page, each made in a line.
+// HTML elements.
 
 // An element with a class ("" for none) and its children, elements or text.
 export function element(tag, className = "", ...children) {
@@ -8,7 +8,7 @@ export function element(tag, className = "", ...children) {
   return made;
 }
 
-// A button; its title is its name, too, where the label is no word.
+// A button; its title is also its accessible name.
 export function button(label, action, title = "") {
   const made = element("button", "", label);
   made.type = "button";
@@ -20,7 +20,7 @@ export function button(label, action, title = "") {
   return made;
 }
 
-// Pressed by a mouse, a button would keep the space bar, which is the slides'.
+// Remove the focus of a button after a mouse click, so that the space bar controls the slides.
 export function giveBackFocus(within) {
   within.addEventListener("click", ({ detail, target }) => { if (detail) target.closest("button")?.blur(); });
 }

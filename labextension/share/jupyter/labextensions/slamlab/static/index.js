@@ -1,15 +1,15 @@
-// Plugins of the course: each keeps one thing in order, and all else works without them.
+// Plugins of the course; each is independent, and notebooks work without them.
 
 import { keepFolded, openAnswers } from "./answers.js";
-import { keepClean } from "./clean.js";
-import { keepKeys, nameControls, nameParts, tellDeadWidgets } from "./controls.js";
+import { keepClean } from "./unsaved_state.js";
+import { keepKeys, nameControls, nameParts, explainDeadWidgets } from "./controls.js";
 import { lecturePlugin } from "./lecture/plugin.js";
 import { playDerivations } from "./derivations.js";
 import { showProgress } from "./progress.js";
 
-const NARROW = 1000; // pixels, below which the side bar leaves a notebook too little room
+const NARROW = 1000; // width [px] below which the side bar starts closed
 
-// The plugins; offered is what the application shares: its classes and tokens by their names.
+// The plugins; offered contains classes and tokens that the application shares.
 export function plugins(offered) {
   const { INotebookTracker, NotebookActions, Widget } = offered;
   for (const sheet of ["style.css", "lecture/lecture.css", "lecture/ink.css", "lecture/audience.css"]) {
@@ -32,22 +32,22 @@ export function plugins(offered) {
   });
 
   return [
-    forEachNotebook("clean", "A notebook that was only opened is not unsaved.", keepClean),
-    forEachNotebook("answers", "Answers unfold once a question is answered.", openAnswers),
-    forEachNotebook("parts", "Cells and editors have names, too.", nameParts),
-    forEachNotebook("names", "Sliders have names for who cannot see them.", nameControls),
-    forEachNotebook("dead", "Controls without a kernel say how they come alive.", tellDeadWidgets),
-    forEachNotebook("derivations", "Derivations are played line by line.", playDerivations),
-    forEachNotebook("progress", "The head of a notebook shows how far one is.", showProgress),
+    forEachNotebook("clean", "Opening a notebook does not mark it as unsaved.", keepClean),
+    forEachNotebook("answers", "Answers unfold when a question is answered.", openAnswers),
+    forEachNotebook("parts", "Cells and editors have accessible names.", nameParts),
+    forEachNotebook("names", "Sliders have accessible names.", nameControls),
+    forEachNotebook("dead", "Controls without a kernel show how to start them.", explainDeadWidgets),
+    forEachNotebook("derivations", "Derivations are shown line by line.", playDerivations),
+    forEachNotebook("progress", "The top of a notebook shows your progress.", showProgress),
     {
       id: "slamlab:keys",
-      description: "Keys on a control are the control's.",
+      description: "A focused control receives its keys.",
       autoStart: true,
       activate: keepKeys,
     },
     {
       id: "slamlab:folded",
-      description: "Answers stay folded when they are run.",
+      description: "Answers stay folded when cells are run.",
       autoStart: true,
       requires: [INotebookTracker],
       activate: (app, tracker) => keepFolded(NotebookActions, tracker),
@@ -55,7 +55,7 @@ export function plugins(offered) {
     lecturePlugin(offered),
     {
       id: "slamlab:narrow",
-      description: "On a narrow screen the side bar starts closed.",
+      description: "The side bar starts closed on a narrow screen.",
       autoStart: true,
       activate: (app) => {
         app.restored.then(() => {

@@ -6,7 +6,7 @@ import { questionIn } from "./questions.js";
 
 const TASK = /\bcheck\("([^"\\]+)"\)/;
 
-// what there is to be done in a notebook, in its order
+// tasks and questions of a notebook, in order
 function tasksAndQuestions(model) {
   const found = [];
   for (const cell of model.cells) {
@@ -24,12 +24,12 @@ const NAME = "progress.json";
 async function read(contents, folder) {
   try {
     const { content } = await contents.get(folder, { content: true });
-    const file = content.find(({ name }) => name == NAME); // asking for none would be an error
+    const file = content.find(({ name }) => name == NAME); // requesting a missing file would be an error
     if (!file) return {};
     const options = { type: "file", format: "text", content: true };
     return JSON.parse((await contents.get(file.path, options)).content);
   } catch {
-    return {}; // it is being written
+    return {}; // the file is being written
   }
 }
 

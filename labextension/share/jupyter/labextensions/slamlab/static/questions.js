@@ -1,6 +1,6 @@
-// Questions of a notebook (slamlab.checks.ask), found in the code that asks them.
+// Questions of a notebook (classroom.checks.ask), found in the code of their cells.
 
-// The question that a cell's code asks: {id, unit}, unit "" where there is none; undefined if it asks nothing.
+// Question in a cell's code: {id, unit}, unit "" if there is none; undefined without a question.
 export function questionIn(source) {
   const id = /\bask\(\s*["']([^"'\\]+)["']/.exec(source)?.[1];
   const unit = /\bunit=["']([^"'\\]*)["']/.exec(source)?.[1] ?? "";

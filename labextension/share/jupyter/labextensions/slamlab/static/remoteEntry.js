@@ -16,7 +16,7 @@ window._JUPYTERLAB.slamlab = (() => {
       scope = shares;
     },
     async get() {
-      let found = []; // an extension that fails must not take the application with it
+      let found = []; // a failing extension must not stop the application
       try {
         const [{ plugins }, ...offered] = await Promise.all([
           import(new URL("index.js", here).href),

@@ -1,20 +1,26 @@
-// The class in the lecture: its phones see the slide as it stands, and are asked. A process beside the kernel
-// (slamlab.audience) listens for them; this page sends it the slide that is shown, and gets counts alone.
+// Audience of a lecture: phones show the current slide and answer polls. The audience server
+// (classroom.audience) serves them; this page sends it the current slide, and receives only counts.
 
 import { button, element } from "../element.js";
 import { questionIn } from "../questions.js";
 import { drawBars, LETTERS, many } from "./poll_bars.js";
-import { copyOf, seen } from "./shown_slide.js";
-import { isShown } from "./stops.js";
+import { copyOf, seen } from "./slide_html.js";
+import { isShown } from "./slides.js";
 
-const PAUSE = 500; // [ms] between two slides sent, at least
-const COUNTING = 1000; // [ms] between two looks at the counts
-const LIVING = 30000; // [ms] between two signs of life
+const PAUSE = 500; // [ms] minimum between two slides sent
+const COUNTING = 1000; // [ms] between two requests of the counts
+const KEEP_ALIVE = 30000; // [ms] between two keep-alive requests
 
-const starting = (host) => `print(__import__("json").dumps(__import__("slamlab.audience").audience.start(${
+const UNREACHABLE = "Phones cannot reach this address, so it has no QR code. For a class, connect this machine to the network of "
+  + "the phones, end the class here, and open it to phones on this network.";
+
+const starting = (host) => `print(__import__("json").dumps(__import__("classroom.audience").audience.start(${
   JSON.stringify(location.origin)}, host=${JSON.stringify(host)})))`;
 
-// The question of a cell that asks one: {id, unit, text: element, items: elements or null}; else null.
+// Whether a JupyterHub serves this page: phones then use its address.
+const onHub = () => JSON.parse(document.getElementById("jupyter-config-data")?.textContent ?? "{}").hubPrefix !== undefined;
+
+// The question of a cell: {id, unit, text: element, items: elements or null}; null if it has none.
 function questionOf(cell) {
   const question = questionIn(cell.model.sharedModel.getSource());
   const text = cell.node.querySelector(".jp-OutputArea-output.jp-RenderedMarkdown");
@@ -27,26 +33,26 @@ function questionOf(cell) {
 class Audience {
   constructor(deck) {
     this.deck = deck;
-    this.told = null; // where the process is
-    this.question = null; // the one that is open, with its choices' texts
+    this.server = null; // addresses and code of the server
+    this.question = null; // the current question, with its choices' texts
     this.timers = new Set();
-    this.sent = Promise.resolve(); // slides go out one after another
+    this.sent = Promise.resolve(); // slides are sent one after another
     this.panel = element("section", "slamlab-class");
     this.panel.setAttribute("aria-label", "The class");
     this.panel.dataset.slamlabCloses = ""; // Escape closes it
     this.strip = element("div", "slamlab-poll");
     this.strip.setAttribute("role", "group");
-    this.strip.setAttribute("aria-label", "A question to the class");
+    this.strip.setAttribute("aria-label", "Poll");
     this.bars = element("section", "slamlab-bars");
-    this.bars.setAttribute("aria-label", "What the class answers");
+    this.bars.setAttribute("aria-label", "Answers of the class");
     this.status = element("span");
     this.status.setAttribute("role", "status");
-    deck.button("class", "let the class see the slide on their phones, and ask them", () => this.toggle());
+    deck.button("class", "Show the slides on the class's phones, and ask questions (a)", () => this.toggle());
     deck.key("a", "the class: address, code, phones", () => this.toggle());
-    deck.key("q", "the class's question: ask it, close it with bars, put it away", () => this.goOn());
+    deck.key("q", "poll: ask the question, close the poll and show the bars, remove it", () => this.advance());
     deck.changed.connect(() => this.changed());
     deck.ended.connect(() => this.leave());
-    this.comeBack();
+    this.reconnect();
   }
 
   // ---- the process --------------------------------------------------------------------------------
@@ -54,42 +60,42 @@ class Audience {
   async start(host) {
     this.panel.replaceChildren(element("p", "", "Starting …"));
     try {
-      this.told = JSON.parse(await this.deck.run(starting(host)));
+      this.server = JSON.parse(await this.deck.run(starting(host)));
       await this.alive();
     } catch (error) {
-      this.told = null;
-      this.offer(`It did not start: ${error.message ?? error}`);
+      this.server = null;
+      this.offer(`The server did not start: ${error.message ?? error}`);
       return;
     }
     this.begin();
-    this.showWay();
+    this.showConnection();
   }
 
   begin() {
-    this.every(LIVING, () => this.alive());
-    this.every(COUNTING, () => this.panel.isConnected && this.alive()); // somebody waits for phones to come in
+    this.every(KEEP_ALIVE, () => this.alive());
+    this.every(COUNTING, () => this.panel.isConnected && this.alive()); // the panel shows the number of phones
     this.address = 0;
     this.changed();
   }
 
-  async ask(method, path, said) {
-    const answer = await fetch(this.told.control + path, {
+  async request(method, path, content) {
+    const answer = await fetch(this.server.control + path, {
       method,
-      headers: { Authorization: `Bearer ${this.told.key}`, "Content-Type": "application/json" },
-      body: said && JSON.stringify(said),
+      headers: { Authorization: `Bearer ${this.server.key}`, "Content-Type": "application/json" },
+      body: content && JSON.stringify(content),
     });
-    const told = await answer.json();
-    if (!answer.ok) throw new Error(told.error);
-    return told;
+    const received = await answer.json();
+    if (!answer.ok) throw new Error(received.error);
+    return received;
   }
 
-  // What is asked, with what goes wrong said in the strip.
-  async tell(method, path, said) {
+  // Send a request; show errors in the strip.
+  async send(method, path, content) {
     try {
-      return await this.ask(method, path, said);
+      return await this.request(method, path, content);
     } catch (error) {
       this.status.textContent = error instanceof TypeError
-        ? "The class's process does not answer. Press a, end it, and open it again." : String(error.message);
+        ? "The audience server does not respond. Press a, end the class, and open it again." : String(error.message);
       this.showStrip();
       if (!this.status.isConnected) this.strip.append(this.status);
       return null;
@@ -97,53 +103,58 @@ class Audience {
   }
 
   async alive() {
-    const told = await this.ask("GET", "/alive");
-    this.here = told.phones;
     const count = this.panel.querySelector(".slamlab-class-here");
-    if (count) count.textContent = `${many(told.phones, "phone")} here.`;
+    try {
+      const { phones } = await this.request("GET", "/alive");
+      if (count) count.textContent = `${many(phones, "phone")} connected.`;
+    } catch (error) {
+      this.panel.querySelector(".slamlab-qr")?.remove();
+      if (count) count.textContent = "The audience server does not answer: nobody can connect. End the class and open it again.";
+      throw error;
+    }
   }
 
-  every(milliseconds, deed) {
-    const timer = setInterval(() => Promise.resolve(deed()).catch(() => {}), milliseconds);
+  every(milliseconds, action) {
+    const timer = setInterval(() => Promise.resolve(action()).catch(() => {}), milliseconds);
     this.timers.add(timer);
     return timer;
   }
 
   end() {
-    if (this.told) this.ask("POST", "/end").catch(() => {});
-    this.putAway();
+    if (this.server) this.request("POST", "/end").catch(() => {});
+    this.close();
   }
 
-  putAway() {
+  close() {
     for (const timer of this.timers) clearInterval(timer);
     this.timers.clear();
     clearTimeout(this.sending);
-    this.told = this.question = this.sending = null;
+    this.server = this.question = this.sending = null;
     for (const shown of [this.panel, this.strip, this.bars]) shown.remove();
-    this.say();
+    this.setStatus();
   }
 
-  // The deck is left, perhaps for a moment only: phones need no new code when it comes back. The process ends
-  // by itself where it does not.
+  // The slides are left, perhaps only for a moment: when they return, phones need no new code. Otherwise the
+  // server ends by itself.
   leave() {
-    const { told, deck } = this;
+    const { server, deck } = this;
     if (this.question) this.done();
-    this.putAway();
-    if (!told) return;
-    const over = () => { this.told = told; this.end(); deck.panel.slamlabClass.take(); };
-    const shown = deck.strip("The class is still open: phones keep the last slide. ", button("End it for the class", over));
-    deck.panel.slamlabClass = { told, take() { shown.dispose(); delete deck.panel.slamlabClass; } };
+    this.close();
+    if (!server) return;
+    const endLecture = () => { this.server = server; this.end(); deck.panel.slamlabClass.take(); };
+    const shown = deck.strip("The class is still open, and phones still show the last slide. ", button("End it for the class", endLecture));
+    deck.panel.slamlabClass = { server, take() { shown.dispose(); delete deck.panel.slamlabClass; } };
   }
 
-  comeBack() {
+  reconnect() {
     const left = this.deck.panel.slamlabClass;
     if (!left) return;
-    this.told = left.told;
+    this.server = left.server;
     left.take();
     this.begin();
   }
 
-  // ---- the panel: how to come in ------------------------------------------------------------------
+  // ---- the panel: how to connect ------------------------------------------------------------------
 
   toggle() {
     if (this.panel.isConnected) {
@@ -151,7 +162,7 @@ class Audience {
       return;
     }
     this.deck.layer.append(this.panel);
-    if (this.told) this.showWay();
+    if (this.server) this.showConnection();
     else this.offer("");
     this.panel.querySelector("button")?.focus();
   }
@@ -159,35 +170,40 @@ class Audience {
   offer(problem) {
     this.panel.replaceChildren(
       element("h2", "", "The class"),
-      element("p", "", "Phones can see the slide that is shown, look back at earlier ones, and answer questions. They give no "
-        + "name, and nothing is kept after the lecture."),
-      element("p", "", "Nothing listens until you open it. The notebook, its files and its kernel cannot be reached from there."),
-      button("open it to phones on this network", () => this.start("0.0.0.0")),
-      button("open it on this machine alone, to try it", () => this.start("127.0.0.1")),
+      element("p", "", "Phones can show the current slide and earlier ones, and answer questions. Answers are anonymous, "
+        + "and nothing is stored after the lecture."),
+      element("p", "", "The server starts when you open the class. Phones cannot access the notebook, its files or its kernel."),
+      ...(onHub() ? [button("open to phones", () => this.start("127.0.0.1"))] : [
+        button("open to phones on this network", () => this.start("0.0.0.0")),
+        button("open on this machine only, for a test", () => this.start("127.0.0.1")),
+      ]),
       button("close", () => this.toggle()),
       element("p", "", problem),
     );
   }
 
-  showWay() {
-    const { addresses, code } = this.told;
+  showConnection() {
+    const { addresses, code } = this.server;
     const { address, qr } = addresses[this.address % addresses.length];
-    const picture = element("div", "slamlab-qr");
-    picture.setAttribute("role", "img");
-    picture.setAttribute("aria-label", `QR code of ${address}`);
-    picture.append(document.importNode(new DOMParser().parseFromString(qr, "image/svg+xml").documentElement, true));
-    const way = element("div", "",
-      element("p", "", "Scan this, or open"),
-      element("p", "slamlab-class-address", `http://${address}`),
-      element("p", "", "and type"),
+    const local = /^(https?:\/\/)?(127\.|localhost)/.test(address); // a phone would look for it on itself
+    const picture = element("div", local ? "slamlab-class-local" : "slamlab-qr", local ? UNREACHABLE : "");
+    if (!local) {
+      picture.setAttribute("role", "img");
+      picture.setAttribute("aria-label", `QR code of ${address}`);
+      picture.append(document.importNode(new DOMParser().parseFromString(qr, "image/svg+xml").documentElement, true));
+    }
+    const instructions = element("div", "",
+      element("p", "", local ? "For a test, open on this machine" : "Scan the code, or open"),
+      element("p", "slamlab-class-address", address),
+      element("p", "", "and enter the code"),
       element("p", "slamlab-class-code", `${code.slice(0, 4)} ${code.slice(4)}`),
       element("p", "slamlab-class-here"));
     const buttons = [button("hide", () => this.toggle())];
     if (addresses.length > 1) {
-      buttons.push(button("another address of this machine", () => { this.address += 1; this.showWay(); }));
+      buttons.push(button("another address of this machine", () => { this.address += 1; this.showConnection(); }));
     }
     buttons.push(button("end it for the class", () => { this.end(); }));
-    this.panel.replaceChildren(element("h2", "", "The class"), element("div", "slamlab-class-way", picture, way),
+    this.panel.replaceChildren(element("h2", "", "The class"), element("div", "slamlab-class-way", picture, instructions),
       element("div", "slamlab-hands", ...buttons));
     this.alive().catch(() => {});
   }
@@ -195,22 +211,22 @@ class Audience {
   // ---- the slide ----------------------------------------------------------------------------------
 
   changed() {
-    if (!this.told) return;
+    if (!this.server) return;
     this.drawStrip();
     this.sending ??= setTimeout(() => {
       this.sending = null;
-      this.sent = this.sent.then(() => this.send()).catch(console.error);
+      this.sent = this.sent.then(() => this.sendSlide()).catch(console.error);
     }, PAUSE);
   }
 
-  // A long slide has several pages: what is shown is named by its first cell.
+  // A long slide has several pages: a page is identified by its first cell.
   get place() { return this.deck.panel.content.widgets.indexOf(this.cells()[0]); }
 
-  async send() {
+  async sendSlide() {
     const slide = this.place, place = this.deck.slide + 1;
     const html = (await Promise.all(this.cells().map((cell) => this.copy(cell.node)))).join("\n");
-    // gone on while it was copied: the change has ordered another copy
-    if (this.told && slide >= 0 && slide === this.place) await this.tell("PUT", "/slide", { slide, place, html });
+    // if the slide changed meanwhile, another copy follows
+    if (this.server && slide >= 0 && slide === this.place) await this.send("PUT", "/slide", { slide, place, html });
   }
 
   copy(part) {
@@ -218,7 +234,7 @@ class Audience {
   }
 
   cells() {
-    // were notes in sight by mistake, they would still be no business of the class
+    // notes are never sent, even if they are visible by mistake
     const { page, panel } = this.deck;
     return panel.content.widgets.filter((cell) => page.contains(cell.node) && seen(cell.node) && isShown(cell));
   }
@@ -230,12 +246,12 @@ class Audience {
   drawStrip() {
     if (this.question) return;
     const question = this.asked;
-    this.say(question ? "q asks the class." : "");
+    this.setStatus(question ? "Press q to ask the class." : "");
     this.status.textContent = "";
     if (!question) this.strip.remove();
     else if (question.id !== this.offered || !this.strip.isConnected) {
-      this.fillStrip(button("ask the class", () => this.goOn()));
-      this.offered = question.id; // drawn once: its button may have the focus when a figure comes late
+      this.fillStrip(button("ask the class", () => this.advance()));
+      this.offered = question.id; // drawn once, so that its button keeps the focus
     }
   }
 
@@ -245,21 +261,21 @@ class Audience {
     this.showStrip();
   }
 
-  // Put anew into the page, it would take the focus from who types in it.
+  // Inserted only once, so that a field in it keeps the focus.
   showStrip() {
     if (!this.strip.isConnected) this.deck.bar.node.append(this.strip);
   }
 
-  // What the presenter's window says of the class.
-  say(words = "") {
-    if (this.deck.ofClass === words) return;
-    this.deck.ofClass = words;
+  // Status of the class in the presenter window.
+  setStatus(text = "") {
+    if (this.deck.classStatus === text) return;
+    this.deck.classStatus = text;
     this.deck.classChanged.emit(this.deck);
   }
 
-  // The next step of a question, by a key: it is asked, closed, put away.
-  goOn() {
-    if (!this.told) this.deck.notice("The class is not open: a opens it.");
+  // The next step of a poll: ask, close, remove.
+  advance() {
+    if (!this.server) this.deck.notice("The class is not open. Press a to open it.");
     else if (this.question) this.question.over ? this.done() : this.closePoll();
     else if (this.asked) this.open(this.asked);
     else this.deck.notice("There is no question on this slide.");
@@ -270,9 +286,9 @@ class Audience {
     const words = question.items && await Promise.all(question.items.map((item) => this.copy(item)));
     const lettered = /^<strong>[A-H]<\/strong>\s*/;
     const choices = words && words.map((one) => one.replace(lettered, ""));
-    // the choices are the buttons: they need not stand in the text, too
+    // the choices are buttons, and are removed from the text
     const text = choices ? html.slice(0, html.lastIndexOf("<ul")) : html;
-    if (!await this.tell("PUT", "/poll", { question: question.id, text, choices, unit: question.unit })) return;
+    if (!await this.send("PUT", "/poll", { question: question.id, text, choices, unit: question.unit })) return;
     const plain = question.items?.map((item) => item.textContent.slice(1).trim());
     this.question = { choices: plain ?? null, unit: question.unit };
     this.counting = this.every(COUNTING, () => this.count());
@@ -281,11 +297,11 @@ class Audience {
   }
 
   async count() {
-    const counts = await this.tell("GET", "/poll");
+    const counts = await this.send("GET", "/poll");
     if (!counts || !this.question) return;
     this.status.textContent = `${many(counts.answers, "answer")}, ${many(counts.phones, "phone")}`;
     const each = this.question.choices ? `: ${counts.counts.map((count, n) => `${LETTERS[n]} ${count}`).join(", ")}` : "";
-    this.say(`${this.status.textContent}${each}. q ${this.question.over ? "puts it away" : "closes the poll and shows the bars"}.`);
+    this.setStatus(`${this.status.textContent}${each}. Press q to ${this.question.over ? "remove the poll" : "close the poll and show the bars"}.`);
     drawBars(this.bars, this.question, counts);
   }
 
@@ -301,16 +317,17 @@ class Audience {
   }
 
   async closePoll() {
-    if (!await this.tell("POST", "/poll/close") || !this.question) return;
+    if (!await this.send("POST", "/poll/close") || !this.question) return;
     this.question.over = true;
     this.show(true);
-    if (!this.hands?.isConnected) this.drawControls(); // who counts hands by now goes on
+    if (!this.hands?.isConnected) this.drawControls(); // the lecturer may be counting hands
     this.count();
   }
 
   show(on) {
     if (on) this.deck.layer.append(this.bars);
     else this.bars.remove();
+    this.deck.refresh();
     this.label();
   }
 
@@ -326,7 +343,7 @@ class Audience {
     form.onsubmit = async (event) => {
       event.preventDefault();
       const hands = fields.map(([, field]) => Math.round(Number(field.value) || 0));
-      if (!await this.tell("PUT", "/hands", { hands }) || !this.question) return;
+      if (!await this.send("PUT", "/hands", { hands }) || !this.question) return;
       if (form.isConnected) this.drawControls();
       this.count();
     };
@@ -338,14 +355,14 @@ class Audience {
   done() {
     clearInterval(this.counting);
     this.timers.delete(this.counting);
+    this.show(false);
     this.question = null;
-    this.bars.remove();
-    this.tell("DELETE", "/poll");
+    this.send("DELETE", "/poll");
     this.drawStrip();
   }
 }
 
-// Give a deck its class.
+// Add an audience to a deck.
 export function addAudience(deck) {
   return new Audience(deck);
 }

@@ -1,4 +1,4 @@
-// What the deck and the presenter's window speak through: named by the notebook, so that each may be
-// loaded again without the other.
+// Channel between the deck and the presenter window, named by the notebook, so that each can be
+// reloaded without the other.
 
 export const channelOf = (path) => new BroadcastChannel(`slamlab-lecture:${path}`);

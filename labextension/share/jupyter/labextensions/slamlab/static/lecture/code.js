@@ -1,25 +1,25 @@
-// Code on a slide: folded to its one telling line unless it is short or the subject; locked. Nothing is shown
-// of code that the notebook folds, which nobody needs to read, and of a question, which holds the answer.
+// Code on a slide: locked, and folded to one summary line unless it is short or the subject of the slide.
+// Code that the notebook folds, and code of a question, which contains the answer, is hidden.
 
 import { element } from "../element.js";
-import { isFolded, standsFor } from "./telling.js";
+import { isFolded, summaryOf } from "./code_summary.js";
 
 const FOLDED = "slamlabFolded"; // by the notebook
 
-const told = (cell) => ({
+const properties = (cell) => ({
   source: cell.model.sharedModel.getSource(),
   tags: cell.model.getMetadata("tags"),
   folded: FOLDED in cell.node.dataset,
   hasOutput: cell.model.outputs.length > 0,
 });
 
-// Code that was run, gave no output, and is folded to a line, which fills no slide by itself.
-export function saysLittle(cell) {
+// Code that was run, has no output, and is folded to one line.
+export function isSummaryOnly(cell) {
   const { type, executionCount, outputs } = cell.model;
-  return type === "code" && executionCount !== null && !outputs.length && isFolded(told(cell));
+  return type === "code" && executionCount !== null && !outputs.length && isFolded(properties(cell));
 }
 
-// Code that a notebook folds away is folded by the deck in its own way, as long as it is shown.
+// The deck replaces the notebook's folding of code by its own.
 export function takeFolding(cell) {
   if (cell.model.type !== "code" || !cell.inputHidden) return;
   cell.inputHidden = false;
@@ -34,16 +34,16 @@ export function giveFoldingBack(cell) {
 
 export function foldCode(cell) {
   if (cell.model.type !== "code") return;
-  cell.node.classList.toggle("slamlab-folded", isFolded(told(cell)));
+  cell.node.classList.toggle("slamlab-folded", isFolded(properties(cell)));
   let line = cell.node.querySelector(".slamlab-telling");
   if (!line) {
     line = element("code", "slamlab-telling");
     cell.inputArea.node.after(line);
   }
-  line.textContent = standsFor(told(cell));
+  line.textContent = summaryOf(properties(cell));
 }
 
-// Nobody edits by accident: what is inert takes no focus, no key and no click.
+// Prevent edits by accident: an inert element gets no focus, key or click.
 export function lockCode(cell, locked = true) {
   const area = cell.inputArea?.node;
   if (!area) return;

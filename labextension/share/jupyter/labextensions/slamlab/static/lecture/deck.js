@@ -1,25 +1,26 @@
-// The deck: a notebook shown slide by slide on the whole screen, its kernel and controls alive.
+// The deck: a notebook shown as slides on the whole screen, with its live kernel and controls.
 
 import { element, giveBackFocus } from "../element.js";
-import { guard } from "./guard.js";
-import { Bar } from "./bar.js";
+import { guard } from "./input_guard.js";
+import { Health } from "./health.js";
+import { Bar } from "./status_bar.js";
 import { keysOf } from "./keys.js";
-import { cellsOn, layOut, pagesOf, zoomOf } from "./fit.js";
-import { goToCell } from "./place.js";
+import { cellsOn, layOut, pagesOf, textBeside, zoomOf } from "./fit.js";
+import { goToCell } from "./active_cell.js";
 import { foldCode, giveFoldingBack, lockCode, takeFolding } from "./code.js";
 import { Signal } from "./signal.js";
-import { refold, reveal, slidesOf, stopsOf, unfold } from "./stops.js";
+import { refold, reveal, slidesOf, stopsOf, unfold } from "./slides.js";
 
 const PANEL = "slamlab-deck";
-const AHEAD = 3; // slides that are laid out before they are shown
-const PAUSE = 150; // ms without a key before the next one of them
+const AHEAD = 3; // slides that are laid out in advance
+const PAUSE = 150; // [ms] without a key before each of them
 
-// JupyterLab draws cells when they come into sight; a slide needs all of its own.
+// JupyterLab renders cells when they become visible; a slide needs all its cells.
 function draw(notebook, indices) {
   for (const index of indices) {
     const cell = notebook.widgets[index];
     if (!cell.isAttached) {
-      cell.node.dataset.windowedListIndex = `${index}`; // its place is looked for by it
+      cell.node.dataset.windowedListIndex = `${index}`; // JupyterLab finds its position by it
       notebook.layout.insertWidget(index, cell);
     }
     cell.placeholder = false;
@@ -34,12 +35,12 @@ function draw(notebook, indices) {
 export class Deck {
   changed = new Signal(); // after each change of stop, size or content
   ended = new Signal();
-  classChanged = new Signal(); // what the presenter's window says of the class
-  ofClass = "";
+  classChanged = new Signal(); // the status of the class in the presenter window
+  classStatus = "";
   at = 0;
   size = 1;
   stops = [];
-  layouts = new Map(); // slide to its pages, as long as nothing changes
+  layouts = new Map(); // slide to its pages; a cache
 
   constructor(panel, app) {
     Object.assign(this, { panel, app, notebook: panel.content });
@@ -57,10 +58,11 @@ export class Deck {
     notebook.widgets.forEach(({ node }) => node.classList.add("slamlab-off"));
     panel.node.classList.add(PANEL);
     panel.node.append(layer);
-    panel.node.popover = "manual"; // the top layer: no ancestor confines it
+    panel.node.popover = "manual"; // in the top layer, outside any ancestor
     panel.node.showPopover();
     this.keys = keysOf(this);
     this.release = guard(this);
+    this.health = new Health(this);
     this.bar = new Bar(this);
     this.slides = slidesOf(notebook);
     const slide = this.slides.findLastIndex(({ cells }) => cells[0] <= cell);
@@ -75,19 +77,20 @@ export class Deck {
 
   get slide() { return this.stops[this.at]?.slide ?? 0; }
 
-  // The cell that the stop shown is about: its index.
+  // Index of the cell of the current stop.
   get cell() { return this.stops[this.at]?.cell ?? 0; }
 
   get zoom() { return zoomOf(this.size); }
 
-  // How large the page that is shown is: its zoom, less what it was shrunk by to fit.
+  // Scale of the current page: zoom times the shrink factor.
   get scale() { return this.zoom * this.shown.shrink; }
 
-  // Find all stops anew; pages that were laid out begin stops of their own.
+  // Find all stops again; each page of a slide begins a stop.
   gather() {
     this.stops = this.slides.flatMap((slide, number) => {
-      const breaks = this.layouts.get(number)?.map(({ cells }) => cells[0]) ?? [];
-      return stopsOf(this.notebook, slide, number, breaks);
+      const pages = this.layouts.get(number) ?? [];
+      const joined = pages.flatMap((page) => textBeside(this.notebook, page));
+      return stopsOf(this.notebook, slide, number, pages.map(({ cells }) => cells[0]), joined);
     });
   }
 
@@ -95,14 +98,14 @@ export class Deck {
 
   back() {
     if (!this.at) return;
-    this.#pages(this.stops[this.at - 1].slide); // its last page may begin a stop not known yet
+    this.#pages(this.stops[this.at - 1].slide); // its last page may begin a new stop
     this.go(this.at - 1);
   }
 
   go(k) {
     const { slide } = this.stops[Math.max(0, Math.min(k, this.stops.length - 1))];
     const nth = k - this.#first(slide);
-    const pages = this.#pages(slide); // it may have more stops now
+    const pages = this.#pages(slide); // the number of stops may have changed
     this.at = Math.max(0, Math.min(this.#first(slide) + nth, this.stops.length - 1));
     this.shown = pages.findLast(({ cells }) => cells[0] <= this.cell) ?? pages[0];
     this.#reveal();
@@ -110,34 +113,40 @@ export class Deck {
     this.#unscroll();
     this.signature = this.#signature();
     Object.assign(this.layer.dataset, { stop: this.at, stops: this.stops.length, shrink: this.shown.shrink });
-    this.aim = this.stops[this.at];
+    this.target = this.stops[this.at];
     this.changed.emit(this);
     this.#prepare();
   }
 
   goToSlide(number) { this.go(this.#first(number)); }
 
-  // The same stop anew, after its content changed, or the size of all. A cell that runs has no steps for
-  // a while: the stop that was gone to is aimed at until they are back.
-  again(all = true) {
+  // Show the same stop again, after its content or the size changed. A running cell has no steps for a
+  // while: the deck returns to the target stop when they are back.
+  refresh(all = true) {
     if (!this.panel.node.classList.contains(PANEL)) return;
-    const { aim } = this;
+    const { target } = this;
     if (all) this.layouts.clear();
-    else this.layouts.delete(aim.slide);
+    else this.layouts.delete(target.slide);
     this.gather();
-    this.at = this.#first(aim.slide);
-    this.#pages(aim.slide);
-    this.go(Math.max(this.#first(aim.slide), this.#reached(aim)));
-    this.aim = aim;
+    this.at = this.#first(target.slide);
+    this.#pages(target.slide);
+    this.go(Math.max(this.#first(target.slide), this.#reached(target)));
+    this.target = target;
+  }
+
+  // Number of the slide of a cell, or of the last one before it.
+  slideOf(cell) {
+    const index = this.notebook.widgets.indexOf(cell);
+    return Math.max(0, this.slides.findLastIndex(({ cells }) => cells[0] <= index));
   }
 
   key(key, does, action) { this.keys.set(key, { does, action }); }
 
   button(label, title, action) { return this.bar.button(label, title, action); }
 
-  notice(text, stays) { this.bar.notice(text, stays); }
+  notice(text, time) { this.bar.notice(text, time); }
 
-  // Run code silently in the notebook's kernel; what it printed.
+  // Run code silently in the notebook's kernel; return its printed output.
   async run(code) {
     const kernel = this.panel.sessionContext.session?.kernel;
     if (!kernel) throw new Error("there is no kernel");
@@ -154,20 +163,21 @@ export class Deck {
   end() {
     const { panel, notebook, page } = this;
     if (!panel.node.classList.contains(PANEL)) return;
+    this.release(); // first of all: whatever fails, the keys are the notebook's again
     this.observer.disconnect();
     notebook.node.removeEventListener("scroll", this.unscroll, true);
-    this.release();
-    notebook.widgets.forEach(giveFoldingBack);
-    refold(notebook);
-    this.ended.emit(this); // the lesson is as it was, but for what was changed
-    panel.node.hidePopover();
+    if (panel.node.isConnected) panel.node.hidePopover();
     panel.node.removeAttribute("popover");
     panel.node.classList.remove(PANEL);
     this.layer.remove();
+    notebook.widgets.forEach(giveFoldingBack);
+    refold(notebook);
+    this.ended.emit(this); // the notebook is restored, except for changes
+    if (panel.isDisposed) return;
     page.removeAttribute("style");
     page.classList.remove("slamlab-columns");
     for (const cell of notebook.widgets) {
-      cell.node.classList.remove("slamlab-off", "slamlab-later", "slamlab-right");
+      cell.node.classList.remove("slamlab-off", "slamlab-later", "slamlab-right", "slamlab-picture");
       for (const one of cell.node.querySelectorAll(".slamlab-later, .slamlab-gone")) {
         one.classList.remove("slamlab-later", "slamlab-gone");
       }
@@ -180,7 +190,7 @@ export class Deck {
     goToCell(notebook, this.cell);
   }
 
-  // The pages of a slide; laid out for the first time they may bring stops that were not known.
+  // The pages of a slide; the first layout may add stops.
   #pages(number) {
     if (!this.layouts.has(number)) {
       const { cells, notes } = this.slides[number];
@@ -198,7 +208,7 @@ export class Deck {
     return this.layouts.get(number);
   }
 
-  // What is measured is shown for a moment, and must not be seen.
+  // Measure the layout invisibly.
   #measured(measure) {
     this.page.classList.add("slamlab-measured");
     try {
@@ -210,7 +220,7 @@ export class Deck {
 
   #first(slide) { return this.stops.findIndex((stop) => stop.slide === slide); }
 
-  // The last stop that shows no more than this one.
+  // The last stop that shows at most the content of this one.
   #reached({ slide, cell, step }) {
     return this.stops.findLastIndex((stop) => stop.slide < slide
       || (stop.slide === slide && (stop.cell < cell || (stop.cell === cell && stop.step <= step))));
@@ -220,14 +230,14 @@ export class Deck {
     reveal(this.notebook, this.stops[this.at], this.shown.cells, this.shown.lines);
   }
 
-  // JupyterLab scrolls to its active cell; a slide stands still.
+  // Undo JupyterLab's scrolling to its active cell.
   #unscroll() {
     for (let one = this.page; one !== this.panel.node; one = one.parentElement) {
       if (one.scrollTop || one.scrollLeft) one.scrollTo(0, 0);
     }
   }
 
-  // Lay out the next slides, one by one, while nobody waits, and no control would lose its focus by it.
+  // Lay out the next slides, one by one, while idle and without a focused control.
   #prepare() {
     clearTimeout(this.preparing);
     const ahead = this.slides.slice(0, this.slide + 1 + AHEAD);
@@ -248,7 +258,7 @@ export class Deck {
       const signature = this.#signature();
       if (signature === this.signature) return;
       const screen = signature.split(",", 2).join();
-      this.again(!this.signature.startsWith(`${screen},`));
+      this.refresh(!this.signature.startsWith(`${screen},`));
     });
   }
 

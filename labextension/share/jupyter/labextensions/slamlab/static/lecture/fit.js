@@ -1,98 +1,103 @@
-// A slide fills the screen: its page is zoomed, laid out in one column or two, or parted into pages.
+// Fit a slide to the screen: zoom, one or two columns, several pages.
 
-import { stepsOf } from "./stops.js";
+import { questionIn } from "../questions.js";
+import { stepsOf } from "./slides.js";
 
-export const PAGE = { width: 960, height: 540 }; // pixels of a page that is neither zoomed nor shrunk
-const SHRINK = [1, 0.94, 0.88, 0.82, 0.76]; // below three quarters letters are too small for a hall
-const SMALL = [0.7, 0.6, 0.5, 0.4, 0.3]; // for one cell that is too tall: better small than cut off
-// one column, or text beside the one thing that is to be seen
+export const PAGE = { width: 960, height: 540 }; // [px] of a page at zoom 1
+const SHRINK = [1, 0.94, 0.88, 0.82, 0.76]; // smaller text is illegible in a lecture hall
+const SMALL = [0.7, 0.6, 0.5, 0.4, 0.3]; // for one cell that is too tall: small, but not cut off
+// one column, or text beside a picture; in the order of the cells, so that later text is never left of earlier
 const COLUMNS = ["", "minmax(0, 1fr) minmax(0, 1fr)", "minmax(0, 2fr) minmax(0, 3fr)"];
-const LETTERS = 0.75; // a figure's own letters may shrink to this part of their size
-const LARGEST = 4; // times a figure grows
+const PICTURE_FIRST = [...COLUMNS.slice(0, 2), "minmax(0, 3fr) minmax(0, 2fr)"];
+const LETTERS = 0.75; // minimum scale of a figure's text
+const LARGEST = 4; // maximum scale of a figure
 const FIGURE = "img.slamlab-figure";
 
-// The zoom at which a page of the usual size fills the screen.
+// Zoom at which a page of the default size fills the screen.
 export function zoomOf(size) {
   return Math.min(window.innerWidth / PAGE.width, window.innerHeight / PAGE.height) * size;
 }
 
-const isPicture = (cell) => Boolean(cell.node.querySelector(".jp-OutputArea-output img, canvas, .jupyter-widgets"));
+const isPicture = (cell) => Boolean(cell.node.querySelector(".jp-OutputArea-output img, canvas, .jupyter-widgets"))
+  && !questionIn(cell.model.sharedModel.getSource());
 
-// Fit the cells of a slide into pages; `show(cells)` shows just these, `show(cells, lines, step)` of a
-// derivation as many lines at this step. Layouts cost time: the largest letters are tried first, which
-// mostly fit, then the smallest, then those between.
+// Fit the cells of a slide into pages; `show(cells)` shows only these, `show(cells, lines, step)` a number
+// of lines of a derivation at a step. Layouts are slow: the largest size is tried first, which mostly
+// fits, then the smallest, then those between.
 // Returns [{cells, shrink, columns, figure, lines}].
 export function pagesOf(page, notebook, slide, zoom, show) {
-  const wayAt = (cells, shrink, lines, step) => {
+  const layoutAt = (cells, shrink, lines, step) => {
     show(cells, lines, step);
     const shown = cells.map((index) => notebook.widgets[index]);
-    const beside = shown.length > 1 && shown.filter(isPicture).length === 1; // two would lie on each other
-    const ways = (beside ? COLUMNS : COLUMNS.slice(0, 1))
+    const place = shown.findIndex(isPicture);
+    const beside = shown.length > 1 && shown.filter(isPicture).length === 1 // two would overlap
+      && [0, shown.length - 1].includes(place);
+    const layouts = (!beside ? COLUMNS.slice(0, 1) : place ? COLUMNS : PICTURE_FIRST)
       .map((columns) => grown(page, notebook, { cells, shrink, columns, figure: LETTERS / shrink }, zoom))
       .filter(Boolean);
-    return ways.length ? ways.reduce((best, way) => (way.wide > best.wide ? way : best)) : undefined;
+    return layouts.length ? layouts.reduce((best, layout) => (layout.wide > best.wide ? layout : best)) : undefined;
   };
   const pages = [];
   for (let rest = [...slide]; rest.length;) {
-    const way = largest(wayAt, rest) ?? part(wayAt, rest, page, notebook, show, zoom);
-    pages.push(way);
-    rest = rest.slice(way.cells.length);
+    const layout = largest(layoutAt, rest) ?? part(layoutAt, rest, page, notebook, show, zoom);
+    pages.push(layout);
+    rest = rest.slice(layout.cells.length);
   }
   return pages;
 }
 
-// The way with the largest letters, none below three quarters.
-function largest(wayAt, cells) {
+// The layout with the largest text, at least three quarters.
+function largest(layoutAt, cells) {
   const [first, ...others] = SHRINK;
   const low = others.pop();
-  const found = wayAt(cells, first);
+  const found = layoutAt(cells, first);
   if (found) return found;
-  let best = wayAt(cells, low);
+  let best = layoutAt(cells, low);
   let between = best ? others : [];
   while (between.length) {
     const middle = Math.floor(between.length / 2);
-    const way = wayAt(cells, between[middle]);
-    best = way ?? best;
-    between = way ? between.slice(0, middle) : between.slice(middle + 1);
+    const layout = layoutAt(cells, between[middle]);
+    best = layout ?? best;
+    between = layout ? between.slice(0, middle) : between.slice(middle + 1);
   }
   return best;
 }
 
-// As many cells as fit on a page of their own; one that is too tall is made small.
-function part(wayAt, rest, page, notebook, show, zoom) {
+// As many cells as fit on a page; a cell that is too tall is shrunk.
+function part(layoutAt, rest, page, notebook, show, zoom) {
   show(rest);
   layOut(page, notebook, { cells: rest, shrink: SHRINK.at(-1), columns: "", figure: 1 }, zoom);
   let room = page.clientHeight;
   let count = rest.findIndex((index) => (room -= notebook.widgets[index].node.offsetHeight) < 0);
   count = Math.max(1, count);
-  let way = largest(wayAt, rest.slice(0, count));
-  for (let more = way; more && count + 1 < rest.length;) { // two columns may hold more
-    more = wayAt(rest.slice(0, ++count), SHRINK.at(-1));
-    way = more ?? way;
+  let layout = largest(layoutAt, rest.slice(0, count));
+  for (let more = layout; more && count + 1 < rest.length;) { // two columns may hold more
+    more = layoutAt(rest.slice(0, ++count), SHRINK.at(-1));
+    layout = more ?? layout;
   }
-  while (!way && --count) way = largest(wayAt, rest.slice(0, count));
+  while (!layout && --count) layout = largest(layoutAt, rest.slice(0, count));
   const tall = rest.slice(0, 1);
-  way ??= last(wayAt, tall, notebook);
-  for (const shrink of way ? [] : SMALL) way ??= wayAt(tall, shrink);
-  return way ?? { cells: tall, shrink: SMALL.at(-1), columns: "", figure: 1 };
+  layout ??= last(layoutAt, tall, notebook);
+  for (const shrink of layout ? [] : SMALL) layout ??= layoutAt(tall, shrink);
+  return layout ?? { cells: tall, shrink: SMALL.at(-1), columns: "", figure: 1 };
 }
 
-// For a derivation that is too long: as many of its last lines as fit at every step.
-function last(wayAt, cells, notebook) {
+// For a derivation that is too long: the number of last lines that fit at every step.
+function last(layoutAt, cells, notebook) {
   const steps = stepsOf(notebook.widgets[cells[0]]);
   for (let lines = steps - 1; lines > 0; lines--) {
     const positions = Array.from({ length: steps - lines + 1 }, (_, k) => lines + k);
-    const ways = positions.map((step) => wayAt(cells, SHRINK.at(-1), lines, step));
-    if (ways.every(Boolean)) return { ...ways[0], lines };
+    const layouts = positions.map((step) => layoutAt(cells, SHRINK.at(-1), lines, step));
+    if (layouts.every(Boolean)) return { ...layouts[0], lines };
   }
 }
 
-// A way with its figure as large as it can be, and how wide that is; undefined if it does not fit.
-function grown(page, notebook, way, zoom) {
-  layOut(page, notebook, way, zoom);
+// A layout with the largest possible figure, and the figure's width; undefined if it does not fit.
+function grown(page, notebook, layout, zoom) {
+  layOut(page, notebook, layout, zoom);
   if (!fits(page)) return undefined;
   const figures = inSight(page, FIGURE);
-  let least = way.figure, most = figures.length ? LARGEST : least;
+  let least = layout.figure, most = figures.length ? LARGEST : least;
   while (most - least > 0.1) {
     const middle = (least + most) / 2;
     page.style.setProperty("--slamlab-figure", middle);
@@ -101,10 +106,10 @@ function grown(page, notebook, way, zoom) {
   }
   page.style.setProperty("--slamlab-figure", least);
   const wide = Math.max(0, ...figures.map((one) => one.getBoundingClientRect().width));
-  return { ...way, figure: least, wide };
+  return { ...layout, figure: least, wide };
 }
 
-// Give the page its size and zoom, and the cells their columns.
+// Apply size and zoom to the page, and columns to the cells.
 export function layOut(page, notebook, { cells, shrink, columns, figure }, zoom) {
   const scale = zoom * shrink;
   page.style.setProperty("zoom", scale);
@@ -113,24 +118,30 @@ export function layOut(page, notebook, { cells, shrink, columns, figure }, zoom)
   page.style.setProperty("--slamlab-figure", figure);
   page.style.setProperty("--slamlab-columns", columns);
   page.classList.toggle("slamlab-columns", Boolean(columns));
+  const first = isPicture(notebook.widgets[cells[0]]);
   for (const index of cells) {
     const cell = notebook.widgets[index];
-    cell.node.classList.toggle("slamlab-right", Boolean(columns) && isPicture(cell));
+    const picture = isPicture(cell);
+    cell.node.classList.toggle("slamlab-picture", Boolean(columns) && picture);
+    cell.node.classList.toggle("slamlab-right", Boolean(columns) && picture === !first);
   }
 }
 
 const isWhole = (one) => one.scrollWidth <= one.clientWidth + 1;
 
-// wide formulas and tables scroll in a notebook; on a slide nobody can
+// wide formulas and tables scroll in a notebook, but not on a slide
 const WIDE = ".jp-OutputArea-output, .jp-RenderedMarkdown, .cm-scroller";
+
+// The text beside a picture that comes first: it is shown with it, so that half of the slide is not empty.
+export const textBeside = (notebook, { cells, columns }) => columns && isPicture(notebook.widgets[cells[0]]) ? [cells[1]] : [];
 
 // The cells of the slide on a page.
 export const cellsOn = (page) => [...page.children].filter((one) => one.matches(".jp-Cell:not(.slamlab-off)"));
 
-// What fits a selector on a slide: all other cells of the notebook, which may be many, are not looked through.
+// Elements of a slide that match a selector; other cells are not searched.
 const inSight = (page, selector) => cellsOn(page).flatMap((cell) => [...cell.querySelectorAll(selector)]);
 
-// Whether nothing of a page is cut off.
+// Whether a page fits the screen without clipping.
 export function fits(page) {
   return page.scrollHeight <= page.clientHeight + 1 && isWhole(page) && inSight(page, WIDE).every(isWhole)
     && inSight(page, FIGURE).every((one) => isWhole(one.parentElement));

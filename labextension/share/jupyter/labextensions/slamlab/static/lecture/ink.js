@@ -1,5 +1,5 @@
-// Ink on the slides: pen, marker, laser point, eraser. Strokes are fixed to what they were drawn on
-// and kept in a file of their own; with no tool in use all below has its pointer.
+// Ink on slides: pen, marker, laser pointer, eraser. Strokes are anchored to the content below them, and
+// stored in a separate file. Without a tool in use, the content gets pointer events.
 
 import { anchorAt, placeOf } from "./anchors.js";
 import { InkBar, TOOLS } from "./ink_bar.js";
@@ -8,7 +8,7 @@ import { Laser } from "./laser.js";
 import { drawn, passes, pathOf, strokeOf, svg } from "./strokes.js";
 
 const REACH = 8; // pixels around the eraser
-const STEPS = 200; // that can be undone
+const STEPS = 200; // undo steps
 
 export function addInk(deck) { return new Ink(deck); }
 
@@ -16,27 +16,27 @@ class Ink {
   constructor(deck) {
     Object.assign(this, { deck, strokes: [], past: [], tool: undefined, inUse: "blue" });
     this.surface = svg("svg", { class: "slamlab-ink", "aria-hidden": "true" });
-    deck.layer.prepend(this.surface); // below the bar and all that opens
+    deck.layer.prepend(this.surface); // below the bar and dialogs
     this.bar = new InkBar(this);
     this.laser = new Laser(this.surface);
     this.file = new InkFile(deck.app.serviceManager.contents, deck.panel.context.path, (text) => deck.notice(text));
     this.#listen();
     this.loaded = this.#load();
     deck.key("i", "ink: pen, marker, laser, eraser, off", () => this.cycle());
-    deck.key("Ctrl+z", "take back the last stroke", () => this.undo());
+    deck.key("Ctrl+z", "undo the last stroke", () => this.undo());
     deck.button("ink", "Draw on the slides (i)", () => this.cycle());
     deck.changed.connect(() => this.#place());
   }
 
-  // Whether the file was read, if there is one.
+  // Load the ink; whether the file was read, if there is one.
   async #load() {
     let kept;
     try {
       kept = await this.file.read();
       this.strokes = [...kept ?? [], ...this.strokes];
     } catch (error) {
-      this.deck.notice(`The ink's file could not be read (${error.message}): what you draw now is not kept.`);
-      this.file = undefined; // what is in there must not be lost
+      this.deck.notice(`The ink file could not be read (${error.message}). New ink is not saved.`);
+      this.file = undefined; // keep the file's content
     }
     this.#show();
     return Boolean(kept);
@@ -47,7 +47,7 @@ class Ink {
     this.use(this.bar.node.isConnected ? tools[tools.indexOf(this.tool) + 1] : "pen");
   }
 
-  // Take a tool, or none: then the bar closes and controls get the pointer again.
+  // Select a tool, or none: then the bar closes and controls get pointer events again.
   use(tool) {
     this.tool = tool;
     if (tool && !this.bar.node.isConnected) this.deck.layer.append(this.bar.node);
@@ -65,14 +65,14 @@ class Ink {
   undo() {
     const before = this.past.at(-1);
     const touched = before && [...before, ...this.strokes].filter((one) => before.includes(one) !== this.strokes.includes(one));
-    if (!touched?.some(({ anchor }) => this.#isHere(anchor))) return this.deck.notice("There is nothing to take back on this slide.");
+    if (!touched?.some(({ anchor }) => this.#isHere(anchor))) return this.deck.notice("There is nothing to undo on this slide.");
     this.past.pop();
     this.#keep(before);
   }
 
   clear() { this.#change(this.strokes.filter(({ anchor }) => !this.#isHere(anchor))); }
 
-  // On the page that is shown, be it that its place is not reached yet.
+  // Whether an anchor is on the current page, even at a later stop.
   #isHere({ cell }) {
     return this.deck.shown.cells.some((index) => this.deck.notebook.widgets[index].model.id === cell);
   }
@@ -84,7 +84,7 @@ class Ink {
     surface.addEventListener("pointerdown", (event) => this.#down(event));
     surface.addEventListener("pointermove", (event) => this.#move(event));
     surface.addEventListener("pointerup", (event) => this.#up(event));
-    surface.addEventListener("pointercancel", () => this.#drop()); // a palm, a gesture of the system
+    surface.addEventListener("pointercancel", () => this.#drop()); // a palm, or a system gesture
     surface.addEventListener("pointerleave", () => this.laser.hide());
     const leaves = () => this.file?.flush();
     window.addEventListener("pagehide", leaves);
@@ -97,11 +97,11 @@ class Ink {
   }
 
   #down(event) {
-    event.preventDefault(); // what has the focus keeps it
+    event.preventDefault(); // keep the focus
     if (event.pointerType === "pen") this.hasPen = true;
     const palm = this.hasPen && event.pointerType === "touch";
     if (palm || !event.isPrimary || event.button > 0 && !(event.buttons & 32)) return;
-    const tool = event.buttons & 32 ? "eraser" : this.tool; // a pen turned round
+    const tool = event.buttons & 32 ? "eraser" : this.tool; // the eraser end of a pen
     this.drawing = { pointer: event.pointerId, tool, points: [] };
     this.surface.setPointerCapture(event.pointerId);
     if (["pen", "marker"].includes(tool)) {
@@ -134,7 +134,7 @@ class Ink {
     const middle = [0, 1].map((k) => (Math.min(...points.map((at) => at[k])) + Math.max(...points.map((at) => at[k]))) / 2);
     const anchor = anchorAt(this.deck, middle);
     const place = anchor && placeOf(this.deck, anchor);
-    if (!place) return this.deck.notice("There is nothing here to write on.");
+    if (!place) return this.deck.notice("You cannot draw here.");
     this.#change([...this.strokes, strokeOf(look, anchor, place, points)]);
   }
 
@@ -172,7 +172,7 @@ class Ink {
     this.#place();
   }
 
-  // Put every stroke where the thing is that it was drawn on.
+  // Move every stroke to the position of its anchor.
   #place() {
     for (const [{ anchor }, group] of this.groups ?? []) {
       const place = placeOf(this.deck, anchor);

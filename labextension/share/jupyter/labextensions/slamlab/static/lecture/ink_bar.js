@@ -1,4 +1,4 @@
-// The small bar of the ink's tools and colours.
+// Toolbar of ink tools and colours.
 
 import { button, element } from "../element.js";
 
@@ -9,7 +9,7 @@ export const TOOLS = [
   { tool: "eraser", label: "eraser", width: 0 },
 ];
 
-// of the course's table, those with a contrast of 3 and more on white; black is the theme's own
+// course colours with a contrast of at least 3 on white; black is the theme's text colour
 export const COLOURS = { blue: "#0072b2", red: "#d55e00", green: "#009e73", pink: "#cc79a7", black: "currentcolor" };
 
 export class InkBar {
@@ -20,16 +20,16 @@ export class InkBar {
     this.node.setAttribute("aria-label", "Ink");
     this.node.dataset.slamlabCloses = ""; // by Escape
     this.node.addEventListener("slamlab-closed", () => ink.use(undefined));
-    this.tools = TOOLS.map(({ tool, label }) => this.#button(label, `Draw with the ${label} (i: the next tool)`, () => ink.use(tool)));
+    this.tools = TOOLS.map(({ tool, label }) => this.#button(label, `Draw with the ${label} (i: next tool)`, () => ink.use(tool)));
     this.colours = Object.entries(COLOURS).map(([name, colour]) => {
       const button = this.#button("", `Draw in ${name}`, () => ink.colour(name));
       button.classList.add("slamlab-inkcolour");
       button.style.setProperty("--slamlab-colour", colour);
       return button;
     });
-    this.#button("undo", "Take back the last stroke (Ctrl+Z)", () => ink.undo());
-    this.#button("clear", "Clear this slide (Ctrl+Z brings it back)", () => ink.clear());
-    this.#button("✕", "Put the pen down (Esc)", () => ink.use(undefined));
+    this.#button("undo", "Undo the last stroke (Ctrl+Z)", () => ink.undo());
+    this.#button("clear", "Clear this slide (Ctrl+Z to undo)", () => ink.clear());
+    this.#button("✕", "Stop drawing (Esc)", () => ink.use(undefined));
   }
 
   #button(label, title, action) {
@@ -38,7 +38,7 @@ export class InkBar {
     return made;
   }
 
-  // Say which tool and colour are in use.
+  // Show which tool and colour are in use.
   show(tool, colour) {
     this.tools.forEach((button, k) => button.setAttribute("aria-pressed", TOOLS[k].tool === tool));
     this.colours.forEach((button, k) => button.setAttribute("aria-pressed", Object.keys(COLOURS)[k] === colour));

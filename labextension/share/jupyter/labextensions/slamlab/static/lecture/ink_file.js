@@ -1,28 +1,28 @@
-// Ink is kept in a file beside its notebook, NAME.ink.json, never in the notebook. The server writes a file
-// in place: killed while it writes, it leaves a torn one. So what is kept is written first to a spare,
-// NAME.ink.spare.json, and one of the two is whole at any time.
+// Ink file beside the notebook: NAME.ink.json. The server writes files in place, and leaves a damaged file
+// if it is killed meanwhile. So the ink is written first to a backup, NAME.ink.spare.json, and one of the
+// two files is always valid.
 
 import { isStroke } from "./strokes.js";
 
-const PAUSE = 1000; // ms after the last stroke
+const PAUSE = 1000; // [ms] after the last stroke
 const VERSION = 1;
 
-let last = Promise.resolve(); // reading waits for writing: a deck may be started again at once
+let last = Promise.resolve(); // reading waits for writing, in case a deck is restarted at once
 
 export class InkFile {
-  constructor(contents, notebook, tell) {
-    Object.assign(this, { contents, tell });
+  constructor(contents, notebook, notify) {
+    Object.assign(this, { contents, notify });
     const name = notebook.replace(/\.ipynb$/, "");
     Object.assign(this, { path: `${name}.ink.json`, spare: `${name}.ink.spare.json` });
   }
 
-  // The strokes that are kept; none if there is no file. A damaged file is put aside, undefined, unless its
-  // spare is whole.
+  // Read the strokes; [] if there is no file. A damaged file without a valid backup is renamed, and the
+  // result is undefined.
   async read() {
     await last;
     const folder = this.path.split("/").slice(0, -1).join("/");
     const listed = (await this.contents.get(folder, { content: true })).content;
-    if (!listed.some(({ path }) => path === this.path)) return []; // asking for none would be an error
+    if (!listed.some(({ path }) => path === this.path)) return []; // requesting a missing file would be an error
     for (const pause of [0, PAUSE]) { // another window may be writing it
       await new Promise((done) => { setTimeout(done, pause); });
       const strokes = strokesIn(await this.#text(this.path));
@@ -30,23 +30,23 @@ export class InkFile {
     }
     const spared = listed.some(({ path }) => path === this.spare) && strokesIn(await this.#text(this.spare));
     if (spared) {
-      await this.#write(this.path, spared); // before the spare is written again
+      await this.#write(this.path, spared); // before the backup is overwritten
       return spared;
     }
     const aside = this.#free(listed.map(({ path }) => path));
     await this.contents.rename(this.path, aside);
-    this.tell(`The file of the ink was damaged: it is kept as ${aside.split("/").at(-1)}, and a new one begins.`);
+    this.notify(`The ink file was damaged. It is kept as ${aside.split("/").at(-1)}, and a new file is started.`);
     return undefined;
   }
 
-  // Keep strokes, a while after the last change; what goes wrong is told and tried again at the next.
+  // Save strokes shortly after the last change; after an error the next change tries again.
   keep(strokes) {
     this.waiting = strokes;
     clearTimeout(this.timer);
     this.timer = setTimeout(() => this.flush(), PAUSE);
   }
 
-  // Write now what is still to be written; one after another.
+  // Write pending strokes now, one write after another.
   flush() {
     clearTimeout(this.timer);
     last = last.then(async () => {
@@ -57,7 +57,7 @@ export class InkFile {
         for (const path of [this.spare, this.path]) await this.#write(path, strokes);
       } catch (error) {
         this.waiting ??= strokes;
-        this.tell(`The ink could not be saved (${error.message}); the next stroke tries again.`);
+        this.notify(`The ink could not be saved (${error.message}). Saving is retried after the next stroke.`);
       }
     });
     return last;
@@ -67,7 +67,7 @@ export class InkFile {
     return this.contents.save(path, { type: "file", format: "text", content: asText(strokes) });
   }
 
-  // The text of a file; undefined if it is none.
+  // Text of a file; undefined if it is not text.
   async #text(path) {
     try {
       return (await this.contents.get(path, { type: "file", format: "text", content: true })).content;
@@ -85,7 +85,7 @@ export class InkFile {
   }
 }
 
-// The strokes of a file's text; undefined if it is none of ours.
+// Strokes in a file's text; undefined if it is invalid.
 function strokesIn(text) {
   try {
     const { version, strokes } = JSON.parse(text);
@@ -95,7 +95,7 @@ function strokesIn(text) {
   }
 }
 
-// A line a stroke: what changed is seen at a glance.
+// One line for each stroke, for readable diffs.
 const asText = (strokes) => {
   const lines = strokes.map((stroke) => `  ${JSON.stringify(stroke)}`).join(",\n");
   return `{"version": ${VERSION}, "strokes": [\n${lines}\n]}\n`;

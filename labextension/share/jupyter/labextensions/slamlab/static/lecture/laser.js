@@ -1,8 +1,8 @@
-// The laser point: follows the pointer, leaves a trace while it is pressed; both fade by themselves.
+// Laser pointer: follows the pointer, and leaves a trace while pressed; both fade.
 
 import { pathOf, svg } from "./strokes.js";
 
-const STILL = 1500; // ms until a point that rests fades
+const STILL = 1500; // [ms] until a resting point fades
 const TRACE = 30; // points of the trace
 
 export class Laser {
@@ -17,7 +17,7 @@ export class Laser {
     this.dot.setAttribute("cx", x);
     this.dot.setAttribute("cy", y);
     this.points = pressed ? [...this.points.slice(1 - TRACE), [x, y]] : [];
-    if (pressed) this.trace.setAttribute("d", pathOf(this.points)); // the last one stays to fade
+    if (pressed) this.trace.setAttribute("d", pathOf(this.points)); // the last trace stays and fades
     this.trace.dataset.still = !pressed;
     this.dot.dataset.still = false;
     clearTimeout(this.resting);

@@ -1,9 +1,9 @@
-// All slides at a glance: a card each, with its heading and its first picture, or its first words.
+// Overview of all slides: a card for each, with its heading and its first picture or text.
 
 import { element } from "../element.js";
 import { questionIn } from "../questions.js";
-import { htmlOf } from "./stops.js";
-import { tellingLine } from "./telling.js";
+import { htmlOf } from "./slides.js";
+import { summaryLine } from "./code_summary.js";
 
 const OPEN = ".slamlab-overview";
 
@@ -26,7 +26,7 @@ function card(deck, slide, number) {
   const head = element("span", "", element("b", "", `${number + 1}`), slide.title || "—", minutes);
   const src = /src="(data:image[^"]+)"/.exec(cells.map(htmlOf).join(""))?.[1];
   const button = element("button", "", head, src ? Object.assign(new Image(), { src, alt: "" })
-    : element("small", "", cells.map(wordsOf).find(Boolean) ?? ""));
+    : element("small", "", cells.map(textOf).find(Boolean) ?? ""));
   if (number === deck.slide) button.setAttribute("aria-current", "true");
   button.addEventListener("click", () => {
     deck.layer.querySelector(OPEN).remove();
@@ -35,13 +35,12 @@ function card(deck, slide, number) {
   return element("li", "", button);
 }
 
-// What a cell says, by which slides of one heading are told from each other; answers are not told, nor formulas.
-function wordsOf({ model }) {
+// Text of a cell that distinguishes slides with the same heading, without formulas and the lines of tables.
+function textOf({ model }) {
   const source = model.sharedModel.getSource();
   if (questionIn(source)) return "a question";
-  if (model.getMetadata("slamlab")?.answers) return "an answer";
-  if (model.type === "code") return tellingLine(source) ?? "";
-  return source.replace(/^#.*$/gm, "").replace(/\$\$?[^$]+\$\$?/g, "…").replace(/[*`]|\]\(.*?\)|\[/g, "").trim();
+  if (model.type === "code") return summaryLine(source) ?? "";
+  return source.replace(/^#.*$/gm, "").replace(/\$\$?[^$]+\$\$?/g, "…").replace(/[*`]|\]\(.*?\)|\[/g, "").replace(/^[|: -]+$/gm, "").replace(/ *\|+ */g, " ").trim();
 }
 
 function step(list, event) {

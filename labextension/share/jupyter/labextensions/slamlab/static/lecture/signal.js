@@ -1,4 +1,4 @@
-// A signal: who is connected is told.
+// Signal with listeners.
 
 export class Signal {
   #listeners = new Set();
@@ -16,7 +16,7 @@ export class Signal {
       try {
         listener(...values);
       } catch (error) {
-        console.error("slamlab:", error); // one that fails must not stop the lecture
+        console.error("slamlab:", error); // a failing listener must not stop the lecture
       }
     }
   }

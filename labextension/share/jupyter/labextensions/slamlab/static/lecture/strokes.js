@@ -1,7 +1,7 @@
-// Strokes: {id, tool, colour, width, anchor, points: [[x, y, pressure]]}, in units of their anchor.
+// Strokes of ink: {id, tool, colour, width, anchor, points: [[x, y, pressure]]}, in units of their anchor.
 
 const SVG = "http://www.w3.org/2000/svg";
-const LEVELS = 8; // of pressure that are told apart
+const LEVELS = 8; // levels of pressure
 
 export function svg(tag, attributes = {}) {
   const made = document.createElementNS(SVG, tag);
@@ -11,7 +11,7 @@ export function svg(tag, attributes = {}) {
 
 const rounded = (number) => Math.round(10 * number) / 10;
 
-// A stroke of points of the window, fixed to an anchor at a place.
+// A stroke from points of the window, relative to an anchor's position.
 export function strokeOf({ tool, colour, width }, anchor, { x, y, scale }, points) {
   return {
     id: crypto.randomUUID(),
@@ -44,7 +44,7 @@ function runs(points) {
   return found.filter((run) => run.points.length > 1 || found.length === 1);
 }
 
-// A smooth way: curves from middle to middle, the points their handles; one point is a dot.
+// A smooth path: quadratic curves between midpoints with the points as control points; one point is a dot.
 export function pathOf(points) {
   const [[x, y], ...rest] = points;
   if (!rest.length) return `M${x} ${y}h0`;
@@ -55,7 +55,7 @@ export function pathOf(points) {
   return `M${x} ${y}${curves.join("")}L${rest.at(-1)[0]} ${rest.at(-1)[1]}`;
 }
 
-// Whether a stroke at a place passes a point of the window within some pixels.
+// Whether a stroke passes a point of the window within some pixels.
 export function passes({ points, width }, { x, y, scale }, [px, py], reach) {
   const at = [(px - x) / scale, (py - y) / scale];
   const near = reach / scale + width / 2;
@@ -68,7 +68,7 @@ function distance([px, py], [ax, ay], [bx, by]) {
   return Math.hypot(px - ax - t * (bx - ax), py - ay - t * (by - ay));
 }
 
-// Whether something read from a file is a stroke.
+// Whether data of a file is a stroke.
 export function isStroke(one) {
   const { id, tool, colour, width, anchor, points } = one ?? {};
   return [id, tool, colour, anchor?.cell].every((text) => typeof text === "string")

@@ -1,0 +1,133 @@
+"""Presentation of a failing case if its arrays are not the function's arguments and results.
+
+A seed represents a generator, flags represent infinity and None, and ragged rows are padded."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+NONE = {"result": np.array("None")}
+
+
+def _as_they_are(inputs, outputs):
+    return inputs, outputs
+
+
+@dataclass(frozen=True)
+class CasePresentation:
+    """The description of a failing case for the student.
+
+    shown : (inputs, outputs) of one row -> the arrays to show. ``outputs`` is empty if the function
+    failed. Raises KeyError if an array is missing."""
+
+    called: str = ""  # how the function is called with the arrays that follow; "": once
+    returned: str = "it returns"  # what the returned arrays are
+    shown: Callable = _as_they_are
+
+
+def _distance(inputs, outputs):
+    far = {"result": np.where(outputs["met"] > 0, outputs["distance"], np.inf)} if outputs else {}
+    return inputs, far
+
+
+def _cut(name):
+    def shown(inputs, outputs):
+        return inputs, {"result": outputs[name][: int(outputs["count"])]} if outputs else {}
+
+    return shown
+
+
+def _logarithms(inputs, outputs):
+    if not outputs:
+        return inputs, {}
+    logs, finite = outputs["logs"], outputs["finite"]
+    odd = np.select([finite == -1, finite == -2], [-np.inf, np.inf], np.nan)
+    return inputs, {"result": np.where(finite > 0, logs, odd)}
+
+
+def _one_draw(inputs, outputs):
+    """Select the draw whose copies deviate most from n w, and show it as sorted indices."""
+    if not outputs:
+        return inputs, {}
+    w, copies = inputs["weights"], outputs["copies"]
+    k = np.abs(copies - len(w) * w).max(axis=1).argmax()
+    drawn = np.repeat(np.arange(len(w)), copies[k].astype(int))
+    return {"weights": w, "seed": inputs["seeds"][k]}, {"result": drawn}
+
+
+def _sweep(inputs, outputs):
+    refused = bool(outputs) and not outputs["taken"]
+    return (inputs, NONE) if refused else _cut("rays")(inputs, outputs)
+
+
+def _ring(inputs, outputs):
+    if not outputs:
+        return inputs, {}
+    return inputs, {"result": outputs["box"]} if outputs["left"] else NONE
+
+
+STEPS = (
+    "{} is called once for each step. Each call gets the rows and weights that the previous call "
+    "returned, and the same rng; call k gets {}. The first call gets rng = "
+    "np.random.default_rng(seed) and"
+)
+PRESENTATIONS = {
+    "02-ray-wall": CasePresentation(shown=_distance),
+    "02-echo": CasePresentation(shown=_distance),
+    "02-to-points": CasePresentation(shown=_cut("points")),
+    "02-noise": CasePresentation(
+        "noisy is called twice with rng = np.random.default_rng([seed, 0]), and then with "
+        "np.random.default_rng([seed, 1]). It is given"
+    ),
+    "05-map": CasePresentation(
+        returned="it returns a dict; its values p and P, by ascending ids, are"
+    ),
+    "07-corridor": CasePresentation(
+        "step is called once for each entry of d, q, i, z and r. Each call gets the x and P that "
+        "the previous call returned. The first call is given",
+        "the last call returns",
+    ),
+    "08-associate": CasePresentation(returned="it returns (−1 stands for None)"),
+    "08-pillar": CasePresentation(
+        "fit_circle is given arc. find_pillar is given the other arrays, with rng = "
+        "np.random.default_rng(seed):",
+        "fit_circle returns centre and radius, here called circle. find_pillar returns pillar and "
+        "inside (found = 0 stands for None):",
+    ),
+    "09-life": CasePresentation(
+        "keep_book is called once for each row of scans, without the −1 that pads the row. The "
+        "first call gets an empty book; each later call gets the book that the previous call "
+        "returned:",
+        "after each call, for each id that occurs in any scan, in ascending order: whether the id "
+        "is in the book, its remaining lives and its `sightings`, and how often it is in used:",
+    ),
+    "10-ring": CasePresentation(shown=_ring),
+    "11-weigh": CasePresentation(shown=_logarithms),
+    "11-draw": CasePresentation(
+        "draw is called with rng = np.random.default_rng(seed) and",
+        "the indices that it returns, sorted, are",
+        _one_draw,
+    ),
+    "11-localise": CasePresentation(
+        STEPS.format("localise", "u = us[k] and z = zs[k]"),
+        "call k, counted from 0, returned rows[k] and weights[k]:",
+    ),
+    "11-kidnapped": CasePresentation(
+        STEPS.format("find_again", "u = us[k], p = ps[k] and z = zs[k]")
+    ),
+    "12-relocalise": CasePresentation(
+        "relocalise is called once for the whole run. Scan k consists of the first counts[k] rows "
+        "of `sights[k]`. It is given"
+    ),
+    "14-nodes": CasePresentation(shown=_cut("nodes")),
+    "14-sweep": CasePresentation(shown=_sweep),
+    "15-step": CasePresentation(
+        "step is given poses, and edges (i, j, z, Λ) from the rows of the other arrays:"
+    ),
+    "15-liars": CasePresentation(
+        "close_loops is given poses, edges (k, k + 1, measured[k], information[k]), and loops "
+        "from the rows of the other arrays:"
+    ),
+}
+"""Presentations by task id; in all other tasks, the arrays are the arguments and results."""

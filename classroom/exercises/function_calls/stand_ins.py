@@ -1,0 +1,55 @@
+"""Stand-ins: right functions in place of a student's wrong ones of earlier tasks.
+
+A stand-in contains no right function: it sends its arguments to one that runs elsewhere."""
+
+import contextlib
+
+import numpy as np
+
+
+class StandIn:
+    """A callable that asks for the values of a right function while a task is judged.
+
+    ask : (name of the function, arguments by position or name) -> the value; raises ValueError"""
+
+    def __init__(self, name, ask):
+        self._name, self._ask = name, ask
+
+    def __call__(self, *arguments, **named):
+        if self._ask is None:
+            raise RuntimeError(f"this {self._name} can be called only while a task is judged")
+        given = {str(k): argument for k, argument in enumerate(arguments)} | named
+        return self._ask(self._name, {name: _numbers(self._name, a) for name, a in given.items()})
+
+
+def _numbers(function, argument):
+    """Convert an argument to an array; a Generator is replaced by a number that it draws."""
+    if isinstance(argument, np.random.Generator):
+        argument = argument.random()
+    try:
+        index = isinstance(argument, int | np.integer)
+        return np.array(argument, dtype=None if index else float)
+    except (TypeError, ValueError):
+        what = type(argument).__name__
+        raise TypeError(f"{function} got {what}, which is not an array of numbers") from None
+
+
+def as_returned(values):
+    """Return one value alone and several as a tuple; a value without a dimension as a number."""
+    found = tuple(array if array.ndim else array[()] for array in map(np.asarray, values))
+    return found if len(found) > 1 else found[0]
+
+
+@contextlib.contextmanager
+def replaced(namespace, names, ask):
+    """Put stand-ins for some functions into a namespace, and remove them afterwards."""
+    before = {name: namespace[name] for name in names if name in namespace}
+    made = {name: StandIn(name, ask) for name in names}
+    namespace.update(made)
+    try:
+        yield
+    finally:
+        for name, one in made.items():
+            one._ask = None
+            namespace.pop(name, None)
+        namespace.update(before)

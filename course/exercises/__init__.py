@@ -1,0 +1,1 @@
+"""The exercises: one folder each, with a folder for each task."""

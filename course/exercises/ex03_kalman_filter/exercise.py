@@ -1,0 +1,20 @@
+"""Exercise 03, the Kalman filter. In this order: ``beliefs`` (random inputs, judged by samples and
+least squares), ``gain``, ``update``, ``filter``, ``capacitor``, ``ghosts`` (outliers)."""
+
+from classroom.exercises.exercise import Exercise
+from course.exercises.ex03_kalman_filter.capacitor.task import CAPACITOR
+from course.exercises.ex03_kalman_filter.filter.task import FILTER
+from course.exercises.ex03_kalman_filter.gain.task import GAIN
+from course.exercises.ex03_kalman_filter.ghosts.task import WARY
+from course.exercises.ex03_kalman_filter.update.task import UPDATE
+
+EXERCISE = Exercise(
+    id="03",
+    notebook="03_kalman_filter",
+    title="The Kalman filter",
+    tasks=(GAIN, UPDATE, FILTER, CAPACITOR, WARY),
+    calls="course.exercises.ex03_kalman_filter.calls",
+    allows=("slamlab.layers", "slamlab.views"),
+    answers=("slamlab.filters", "slamlab.estimators", "slamlab.evaluation"),
+    hides=("filterpy",),
+)

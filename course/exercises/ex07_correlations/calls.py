@@ -1,0 +1,57 @@
+"""Function calls of exercise 07: one call per input; runs in the corridor step by step."""
+
+import numpy as np
+
+from classroom.exercises.function_calls import FunctionCall, argument_rows
+from classroom.exercises.function_calls.several_values import split_values, stack_values
+
+
+def _call_two_updates(functions, inputs):
+    calls = [functions["two_updates"](*row) for row in argument_rows(inputs)]
+    return stack_values(calls, "two_updates", {"P_first": (7, 7), "P_both": (7, 7)})
+
+
+def _call_correlated_update(functions, inputs):
+    size = inputs["x"].shape[1]
+    calls = [
+        functions["hearsay"](x, P, seen.astype(int), x_seen, P_seen)
+        for x, P, seen, x_seen, P_seen in argument_rows(inputs)
+    ]
+    return stack_values(calls, "hearsay", {"x": (size,), "P": (size, size)})
+
+
+def _call_fuse(functions, inputs):
+    calls = [functions["fuse"](*row) for row in argument_rows(inputs)]
+    return stack_values(calls, "fuse", {"x": (2,), "P": (2, 2)})
+
+
+def _call_step(functions, inputs):
+    step, ends = functions["step"], []
+    names = "d", "q", "i", "z", "r"
+    size = inputs["x"].shape[1]
+    shapes = {"x": (size,), "P": (size, size)}
+    for run in range(len(inputs["x"])):
+        x, P = inputs["x"][run].copy(), inputs["P"][run].copy()
+        for d, q, i, z, r in zip(*(inputs[name][run].tolist() for name in names), strict=True):
+            x, P = split_values(step(x, P, d, q, int(i), z, r), "step", shapes)
+        ends.append((x, P))
+    x, P = zip(*ends, strict=True)
+    return {"x": np.array(x), "P": np.array(P)}
+
+
+def _call_survey(functions, inputs):
+    doors = int(inputs["door"].max()) + 1
+    calls = [
+        functions["survey"](morning.astype(int), door.astype(int), z, sigma)
+        for morning, door, z, sigma in argument_rows(inputs)
+    ]
+    return stack_values(calls, "survey", {"p": (doors,), "P": (doors, doors)})
+
+
+CALLS = {
+    "07-two-updates": FunctionCall(("two_updates",), _call_two_updates),
+    "07-hearsay": FunctionCall(("hearsay",), _call_correlated_update),
+    "07-fuse": FunctionCall(("fuse",), _call_fuse),
+    "07-corridor": FunctionCall(("step",), _call_step),
+    "07-mornings": FunctionCall(("survey",), _call_survey),
+}

@@ -1,0 +1,32 @@
+"""Exercise 07, correlations. In this order: ``beliefs`` (covariances, NEES), ``two_updates``,
+``hearsay`` (landmarks that are not measured), ``fuse`` (correlated estimates), ``corridor`` (SLAM
+in 1D), ``mornings`` (common error of unknown variance)."""
+
+from classroom.exercises.exercise import Exercise
+from course.exercises.ex07_correlations.corridor.task import CORRIDOR
+from course.exercises.ex07_correlations.fuse.task import FUSE
+from course.exercises.ex07_correlations.hearsay.task import HEARSAY
+from course.exercises.ex07_correlations.mornings.task import MORNINGS
+from course.exercises.ex07_correlations.two_updates.task import TWO_UPDATES
+
+EXERCISE = Exercise(
+    id="07",
+    notebook="07_correlations",
+    title="Correlations, consistency and cost of EKF-SLAM",
+    tasks=(TWO_UPDATES, HEARSAY, FUSE, CORRIDOR, MORNINGS),
+    calls="course.exercises.ex07_correlations.calls",
+    allows=(
+        "slamlab.geometry",
+        "slamlab.models.jacobians",
+        "slamlab.layers",
+        "slamlab.models.motion",
+        "slamlab.models.observation",
+        "slamlab.views",
+    ),
+    answers=(
+        "slamlab.estimators",
+        "slamlab.evaluation",
+        "slamlab.filters",
+        "course.studies",
+    ),
+)

@@ -1,0 +1,1 @@
+"""Exercise 09: its notebook, questions and function calls, and a folder for each task."""

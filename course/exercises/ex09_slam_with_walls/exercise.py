@@ -1,0 +1,30 @@
+"""Exercise 09, SLAM with walls.
+
+One task each: ``place`` (landmark initialisation), ``update``, ``life`` (track management), ``end``
+and ``ghosts`` (a map without false walls); ``rooms``: runs for ``ghosts``.
+"""
+
+from classroom.exercises.exercise import Exercise
+from course.exercises.ex09_slam_with_walls.end.task import END_POINT
+from course.exercises.ex09_slam_with_walls.ghosts.task import GHOSTS
+from course.exercises.ex09_slam_with_walls.life.task import LIFE
+from course.exercises.ex09_slam_with_walls.place.task import PLACE
+from course.exercises.ex09_slam_with_walls.update.task import UPDATE
+
+EXERCISE = Exercise(
+    id="09",
+    notebook="09_slam_with_walls",
+    title="SLAM with walls: line landmarks",
+    tasks=(PLACE, UPDATE, LIFE, END_POINT, GHOSTS),
+    calls="course.exercises.ex09_slam_with_walls.calls",
+    allows=("slamlab.geometry", "slamlab.layers", "slamlab.views"),
+    answers=(
+        "slamlab.estimators",
+        "slamlab.filters",
+        "slamlab.models.jacobians",
+        "slamlab.landmarks",
+        "slamlab.models.motion",
+        "slamlab.models.observation",
+        "slamlab.models.symbolic",
+    ),
+)

@@ -1,0 +1,130 @@
+"""Robots among known objects, and the feasible poses, all of which a sound box holds."""
+
+import functools
+
+import numpy as np
+
+from course.exercises.ex10_set_membership_slam.boxes import boxes_around, off, wrapped
+
+ROWS, OBJECTS = 10, 4
+AGREE = 1 - 1e-9  # share of the bounds that a pose may use: agreement does not hang on rounding
+DIRECTIONS = np.concatenate([np.eye(3), -np.eye(3)])
+SEEK, CLIMB, TRIES = 400, 30, 40  # rounds at most, and tries in each
+
+
+def inputs(rng, n=ROWS, objects=OBJECTS, far=(1.5, 4), half=(0.6, 1.2)):
+    """Robots in their boxes; every other one has errors near their bounds."""
+    pose = np.column_stack([rng.uniform(-3, 3, (n, 2)), rng.uniform(-np.pi, np.pi, n)])
+    return sightings(rng, pose, objects, far, half)
+
+
+def sightings(rng, pose, objects=OBJECTS, far=(1.5, 4), half=(0.6, 1.2)):
+    """What robots at poses (n, 3) know and measure."""
+    n = len(pose)
+    round_about = np.arange(objects) * 2 * np.pi / max(objects, 1) + rng.uniform(
+        -np.pi, np.pi, (n, 1)
+    )
+    angle, r = round_about + rng.uniform(-0.6, 0.6, (n, objects)), rng.uniform(*far, (n, objects))
+    bounds = np.column_stack([rng.uniform(0.1, 0.25, n), rng.uniform(0.02, 0.05, n)])
+    errors = rng.uniform(-1, 1, (n, objects, 2))
+    errors[::2] = np.sign(errors[::2]) * rng.uniform(0.7, 1, errors[::2].shape)
+    z = np.stack([r, angle - pose[:, 2:]], axis=-1) + errors * bounds[:, None]
+    z[..., 1] = off(z[..., 1])
+    size, wide = rng.uniform(0.4, 0.8, (n, 2)), rng.uniform(*half, n)
+    middle = pose[:, :2] + rng.uniform(-0.8, 0.8, (n, 2)) * size
+    before = wide * (1 + rng.uniform(-0.8, 0.8, n))
+    return {
+        "robot": boxes_around(middle, size),
+        "heading": wrapped(pose[:, 2] - before, 2 * wide),
+        "objects": pose[:, None, :2]
+        + r[..., None] * np.stack([np.cos(angle), np.sin(angle)], axis=-1),
+        "z": z,
+        "bounds": bounds,
+    }
+
+
+def _known(given):
+    """(n, 3) middles and half-widths of what is known before."""
+    sides = np.hstack([given["robot"], given["heading"]]).reshape(-1, 3, 2)
+    return sides.mean(axis=2), np.ptp(sides, axis=2) / 2
+
+
+def share(given, poses):
+    """(n, k) largest share of any bound that poses (n, k, 3) need: feasible up to 1."""
+    middle, half = _known(given)
+    needed = (np.abs(poses - middle[:, None]) / half[:, None]).max(axis=-1)
+    (d_r, d_beta), (px, py, theta) = given["bounds"].T[..., None], np.moveaxis(poses, -1, 0)
+    for k in range(given["objects"].shape[1]):
+        x, y = given["objects"][:, k, :1] - px, given["objects"][:, k, 1:] - py
+        r = np.hypot(x, y) - given["z"][:, k, :1]
+        bearing = off(np.arctan2(y, x) - theta - given["z"][:, k, 1:])
+        for each in (np.abs(r) / d_r, np.abs(bearing) / d_beta):
+            np.maximum(needed, each, out=needed)
+    return needed
+
+
+def extremes(given):
+    """(n, 6, 3) farthest feasible poses found along x, y, θ, −x, −y, −θ; NaN if none is.
+    All robots have the same tries: no row depends on others.
+    """
+    return _extremes(
+        tuple((name, a.shape, np.asarray(a, float).tobytes()) for name, a in given.items())
+    )
+
+
+@functools.lru_cache(maxsize=16)
+def _extremes(key):
+    given = {name: np.frombuffer(data).reshape(shape) for name, shape, data in key}
+    middle, half = _known(given)
+    start = _agreeing(given, middle[:, None], half[:, None])
+    found = _farthest(given, np.repeat(start, 6, axis=1), np.repeat(half[:, None] / 2, 6, axis=1))
+    found[(share(given, found) > 1).any(axis=1)] = np.nan
+    return found
+
+
+def _agreeing(given, best, scale):
+    """(n, 1, 3) feasible poses, by tries round the best so far."""
+    rng = np.random.default_rng(0)
+    for k in range(SEEK):
+        agrees = (share(given, best) <= AGREE)[:, 0]
+        if agrees.all():
+            break
+        spread = scale * 0.75 ** (k % 20) * rng.standard_normal((TRIES, 3))
+        tries = np.concatenate([best, best + spread], axis=1)
+        first = np.where(agrees, 0, share(given, tries).argmin(axis=1))
+        best = np.take_along_axis(tries, first[:, None, None], axis=1)
+    return best
+
+
+def _farthest(given, best, scale):
+    """(n, 6, 3) feasible poses, each the farthest of tries round the one before."""
+    rng = np.random.default_rng(1)
+    for _ in range(CLIMB):
+        spread = scale[:, :, None] * rng.standard_normal((len(DIRECTIONS), TRIES, 3))
+        tries = np.concatenate([best[:, :, None], best[:, :, None] + spread], axis=2)
+        agrees = share(given, tries.reshape(len(best), -1, 3)).reshape(tries.shape[:-1]) <= AGREE
+        out = np.where(agrees, (tries * DIRECTIONS[:, None]).sum(axis=-1), -np.inf)
+        first = out.argmax(axis=2)
+        best = np.take_along_axis(tries, first[..., None, None], axis=2)[:, :, 0]
+        scale = scale * np.where(first > 0, 1.1, 0.6)[..., None]
+    return best
+
+
+def tightest(given):
+    """(n, 3) widths of the smallest box and heading found: the true ones are a bit wider."""
+    found = extremes(given)
+    return np.stack([found[:, k, k] - found[:, k + 3, k] for k in range(3)], axis=-1)
+
+
+def outside_each(given, out):
+    """(n, 6) how far feasible poses lie outside; below 0 inside."""
+    x, y, angle = np.moveaxis(extremes(given), -1, 0)
+    (x0, x1, y0, y1), (right, left) = out["robot"].T[..., None], out["heading"].T[..., None]
+    by = [
+        x0 - x,
+        x - x1,
+        y0 - y,
+        y - y1,
+        np.abs(off(angle - (right + left) / 2)) - (left - right) / 2,
+    ]
+    return np.nan_to_num(np.max(by, axis=0), nan=-1.0)

@@ -1,0 +1,31 @@
+"""Exercise 16, a student's own SLAM.
+
+``corridor``, ``loop``, ``sure``: one milestone each; ``short_runs``: the runs of all milestones.
+"""
+
+from classroom.exercises.exercise import Exercise
+from course.exercises.ex16_your_own_slam.corridor.task import CORRIDOR
+from course.exercises.ex16_your_own_slam.loop.task import LOOP
+from course.exercises.ex16_your_own_slam.sure.task import SURE
+
+EXERCISE = Exercise(
+    id="16",
+    notebook="16_your_own_slam",
+    title="Your own SLAM: benchmarks and evaluation",
+    tasks=(CORRIDOR, LOOP, SURE),
+    calls="course.exercises.ex16_your_own_slam.calls",
+    allows=(
+        "slamlab.geometry",
+        "slamlab.layers",
+        "slamlab.readings",
+        "slamlab.simulation.worlds.ray_casting",
+    ),
+    answers=(
+        "slamlab.estimators",
+        "slamlab.filters",
+        "slamlab.gridmap",
+        "slamlab.posegraph",
+        "slamlab.scanmatching",
+    ),
+    hides=("filterpy", "gtsam", "open3d", "pykalman", "small_gicp", "probreg"),
+)

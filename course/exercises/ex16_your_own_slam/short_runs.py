@@ -1,0 +1,135 @@
+"""Short runs with wheel slip: a corridor and a loop of corridors.
+
+The two runs have opposite odometry errors: the mean of their odometry is the true motion.
+"""
+
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+
+from course.exercises.ex16_your_own_slam.calls import (
+    RANGE_MAX,
+    RANGE_MIN,
+    SHORT_RANGE,
+    integrate_odometry,
+)
+from slamlab.geometry import between, wrap
+from slamlab.simulation.range_scanners import Scanner
+from slamlab.simulation.worlds.world import World
+
+LIDAR = Scanner(
+    beams=120,
+    range_min=RANGE_MIN,
+    range_max=RANGE_MAX,
+    range_error=0.008,
+    range_sigma=0.005,
+    bearing_sigma=np.radians(0.3),
+    dropouts=0.01,
+)
+SHORT_SIGHTED = replace(LIDAR, range_max=SHORT_RANGE)
+STEP = 0.5  # distance between readings [m]
+WIDTH = 2.0  # of corridors [m]
+LAST = 5  # number of poses at the end that are judged
+BAD = 0.5  # least mean error of odometry over these poses [m]
+WHEELS = np.array([0.008, 0.004, 0.035])  # σ of the odometry error of a step [m, m, rad]
+
+
+def corridor(rng, steps=18, lost=()):
+    """Return two runs along a corridor with niches: odometry (2, n, 3) [m, m, rad], ranges
+    (2, n, beams) [m], NaN: no return. lost : readings whose scan is lost.
+    """
+    length = steps * STEP
+    sides = [_side(rng, -3.0, length + 3.0, y) for y in (-WIDTH / 2, WIDTH / 2)]
+    ends = [[-3, -1, -3, 1], [length + 3, -1, length + 3, 1]]
+    world = World(np.concatenate([*sides, np.array(ends, dtype=float)]))
+    x = STEP * np.arange(steps + 1)
+    phase, high = rng.uniform(0, 2 * np.pi), rng.uniform(0.1, 0.3)
+    y = high * np.sin(0.7 * x + phase)
+    truth = np.column_stack([x, y, np.arctan(0.7 * high * np.cos(0.7 * x + phase))])
+    while True:
+        errors = WHEELS * rng.standard_normal(truth.shape)
+        inputs = _measured(rng, world, truth, errors, lost)
+        if off_at_the_end(inputs, [integrate_odometry(u) for u in inputs["odometry"]]).min() > BAD:
+            return inputs
+
+
+def ring(rng, around=(5.5, 4.0), beyond=3.0, blind=10):
+    """Return two runs round a block and past the start, in the format of :func:`corridor`.
+    ``blind`` consecutive scans are lost: the scans before and after hardly overlap.
+    around : sides of the loop [m]; beyond : distance driven past the start [m].
+    """
+    a, b = around
+    corners = np.array([[0, 0], [a, 0], [a, b], [0, b], [0, 0]], dtype=float)
+    start = np.array([rng.uniform(1.5, 2.5), 0.0])
+    way = np.concatenate([start[None], corners[1:], [[start[0] + beyond, 0.0]]])
+    h = WIDTH / 2
+    sides = [_side(rng, -h, a + h, y) for y in (-h, b + h)]
+    sides += [_side(rng, -h, b + h, x)[:, [1, 0, 3, 2]] for x in (-h, a + h)]
+    inner = np.array([[h, h, a - h, h], [a - h, h, a - h, b - h], [a - h, b - h, h, b - h],
+                      [h, b - h, h, h]])  # fmt: skip
+    world = World(np.concatenate([*sides, inner]))
+    truth = _along(way)
+    turns = np.flatnonzero(np.abs(wrap(np.diff(truth[:, 2]))) > 0.5)
+    lost = turns[2] - blind // 2 + np.arange(blind)  # round the second corner
+    turned = rng.choice([-1, 1]) * rng.uniform(0.09, 0.1)
+    while True:
+        errors = WHEELS * [1, 1, 0.4] * rng.standard_normal(truth.shape)
+        errors[lost, 2] = turned / blind  # a heading error of either sign
+        inputs = _measured(rng, world, truth, errors, lost, SHORT_SIGHTED)
+        if off_at_the_end(inputs, [integrate_odometry(u) for u in inputs["odometry"]]).min() > BAD:
+            return inputs
+
+
+def route(inputs):
+    """Return (n, 3) the true poses, relative to the first pose."""
+    return integrate_odometry(inputs["odometry"].mean(axis=0))
+
+
+def length(inputs):
+    """Return the length of the true trajectory [m]."""
+    return float(np.hypot(*np.diff(route(inputs)[:, :2], axis=0).T).sum())
+
+
+def off_at_the_end(inputs, trajectories):
+    """Return (2,) mean errors [m] of the last :data:`LAST` poses of trajectories (2, n, 3)."""
+    return offs(inputs, trajectories)[:, -LAST:].mean(axis=1)
+
+
+def offs(inputs, trajectories):
+    """Return (2, n) position errors of all poses, relative to the first pose [m]."""
+    seen = np.array([between(poses[0], poses) for poses in trajectories])
+    return np.hypot(*np.moveaxis((seen - route(inputs))[..., :2], -1, 0))
+
+
+def _measured(rng, world, truth, errors, lost, lidar=LIDAR):
+    steps = between(truth[:-1], truth[1:])
+    odometry = np.zeros((2, len(truth), 3))
+    odometry[:, 1:] = steps + errors[1:], steps - errors[1:]
+    ranges = np.array([[lidar.scan(world, pose, rng).ranges for pose in truth] for _ in range(2)])
+    ranges[:, list(lost)] = np.nan
+    return {"odometry": odometry, "ranges": ranges}
+
+
+def _along(way):
+    poses = []
+    for begin, end in pairwise(way):
+        heading = np.arctan2(*(end - begin)[::-1])
+        length = np.hypot(*(end - begin))
+        if poses:
+            half = poses[-1][2] + wrap(heading - poses[-1][2]) / 2
+            poses.append(np.array([*begin, wrap(half)]))
+        for t in np.arange(0, length - STEP / 2, STEP):
+            poses.append(np.array([*(begin + (end - begin) * t / length), heading]))
+    return np.array(poses)
+
+
+def _side(rng, begin, end, y):
+    """Return (k, 4) a wall along x at y, with niches on the outside."""
+    corners, x = [(begin, y)], begin + rng.uniform(0.5, 1.5)
+    while x + 1.2 < end:
+        wide, deep = rng.uniform(0.4, 0.9), np.sign(y) * rng.uniform(0.2, 0.5)
+        corners += [(x, y), (x, y + deep), (x + wide, y + deep), (x + wide, y)]
+        x += wide + rng.uniform(0.8, 2.0)
+    corners = np.array([*corners, (end, y)])
+    return np.hstack([corners[:-1], corners[1:]])

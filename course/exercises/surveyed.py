@@ -1,0 +1,66 @@
+"""Inputs far from the origin, on which derivatives are judged: finite differences fail there.
+
+Coordinates of 10⁷ m are rounded to 2e-9 m. Differences over any step are then wrong by more than
+:data:`EXACT`, a derived formula is not."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from classroom.exercises.correctness_laws import Diagnosis, equals
+
+EXACT = 1e-8
+"""Tolerance of a derivative, relative to the largest entry."""
+ORIGIN = np.array([7.1e5, 9.3e6])
+"""A surveyor's easting and northing [m]."""
+FAR = 1e6
+"""Distance of walls from the origin [m]: their lines turn about it."""
+NAME = "surveyors' coordinates"
+
+
+def surveyed(inputs, *names):
+    """Move the positions of poses or points, in place, and return the inputs."""
+    for name in names:
+        inputs[name][..., :2] += ORIGIN
+    return inputs
+
+
+def vague(inputs, variances, sigmas=()):
+    """Enlarge variances to square metres, so that no small number hides an error."""
+    larger = {name: 1e4 * inputs[name] for name in variances}
+    return inputs | larger | {name: 100 * inputs[name] for name in sigmas}
+
+
+def corrections(name, points, says, want, **more):
+    """Create the law that x is changed as expected: at large coordinates, x itself hides errors."""
+
+    def change(inputs, x):
+        return {"x": x - inputs["x"]}
+
+    law = equals(name, points, says, lambda i: change(i, want(i)["x"]), tolerance=1e-6, **more)
+    return replace(
+        law,
+        holds=lambda i, o: law.holds(i, o | change(i, o["x"])),
+        want=lambda i: {"x": want(i)["x"]},
+    )
+
+
+def differences(want, on=NAME):
+    """Create the diagnosis of outputs that are right but for rounding, on the probe ``on``."""
+
+    def nearly_right(inputs, outputs):
+        return all(
+            (np.abs(outputs[name] - right) <= 0.02 * np.abs(right).max()).all()
+            for name, right in want(inputs).items()
+        )
+
+    return Diagnosis(
+        "differences",
+        "Your result is nearly right, but not exact if coordinates or headings are large. Finite "
+        "differences have such rounding errors. Derive formulas of the derivatives; subtract "
+        "positions from each other before you multiply them.",
+        nearly_right,
+        on,
+        asks="How many digits of a coordinate of 500 km does a float keep, and how many of them "
+        "remain in a difference of two such numbers?",
+    )

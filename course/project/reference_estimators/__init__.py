@@ -1,0 +1,7 @@
+"""Three other good estimators, as students may submit them, which test the point scale."""
+
+from course.project.reference_estimators.grid_particles import GridParticles
+from course.project.reference_estimators.scan_graph import ScanGraph
+from course.project.reference_estimators.wall_ekf import WallEkf
+
+BANK = (GridParticles, ScanGraph, WallEkf)

@@ -1,1 +1,0 @@
-"""Programs of exercise 02, sensors and worlds."""

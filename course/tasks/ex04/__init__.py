@@ -1,1 +1,0 @@
-"""Right ways through exercise 04 and the slips on them."""

@@ -1,1 +1,0 @@
-"""Right ways and slips of exercise 06, EKF-SLAM."""

@@ -1,1 +1,0 @@
-"""Right ways through the tasks of exercise 07, and the slips on them."""

@@ -1,1 +1,0 @@
-"""Programs of exercise 08: right ways through its tasks, and mistakes."""

@@ -1,1 +1,0 @@
-"""Programs of exercise 10: right ways, slips and stumbles of each task."""

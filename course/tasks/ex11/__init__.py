@@ -1,1 +1,0 @@
-"""Right ways, slips and stumbles of exercise 11."""

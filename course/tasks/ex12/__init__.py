@@ -1,1 +1,0 @@
-"""Programs of exercise 12, three filters and one robot."""

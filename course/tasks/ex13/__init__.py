@@ -1,1 +1,0 @@
-"""Programs of exercise 13, scan matching."""

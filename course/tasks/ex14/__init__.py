@@ -1,1 +1,0 @@
-"""Programs of exercise 14, the eMIR system: right ways, slips, stumbles; ``sweep_ways`` is long."""

@@ -1,1 +1,0 @@
-"""The tasks of the exercises: inputs, laws, diagnoses. The judge's side; never in a worker."""

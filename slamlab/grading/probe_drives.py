@@ -1,3 +1,0 @@
-"""Empty drives: for the worker of the sandbox self-test, which has no tasks."""
-
-DRIVES = {}

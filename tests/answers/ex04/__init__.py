@@ -1,1 +1,0 @@
-"""Independent answers to exercise 04: RIGHT ones and students' mistakes (WRONG)."""

@@ -1,1 +1,0 @@
-"""Independent answers to exercise 13: right ones, and students' mistakes."""

@@ -1,0 +1,1 @@
+"""Tests of the course: its texts, tasks, studies, site and set-up."""
