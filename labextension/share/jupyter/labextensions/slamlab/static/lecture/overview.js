@@ -3,7 +3,7 @@
 import { element } from "../element.js";
 import { questionIn } from "../questions.js";
 import { htmlOf } from "./slides.js";
-import { summaryLine } from "./code_summary.js";
+import { summaryOf } from "./code_summary.js";
 
 const OPEN = ".slamlab-overview";
 
@@ -39,7 +39,7 @@ function card(deck, slide, number) {
 function textOf({ model }) {
   const source = model.sharedModel.getSource();
   if (questionIn(source)) return "a question";
-  if (model.type === "code") return summaryLine(source) ?? "";
+  if (model.type === "code") return summaryOf({ source });
   return source.replace(/^#.*$/gm, "").replace(/\$\$?[^$]+\$\$?/g, "…").replace(/[*`]|\]\(.*?\)|\[/g, "").replace(/^[|: -]+$/gm, "").replace(/ *\|+ */g, " ").trim();
 }
 
