@@ -25,8 +25,8 @@ export function isFolded({ source, tags = [], folded = false }) {
 // The last one-line statement that does not only show something; undefined if there is none.
 const statement = (source) => outerLines(source).findLast((line) => !SHOWS.test(line) && !INCOMPLETE.test(line));
 
-// Summary line of folded code: such a statement, or the comment at the beginning.
-export const summaryLine = (source) => statement(source) ?? /^# *\S.*/.exec(source)?.[0];
+// Summary line of folded code: the comment at the beginning, or else such a statement.
+export const summaryLine = (source) => /^# *\S.*/.exec(source)?.[0] ?? statement(source);
 
 // Text shown for folded code. Without such a statement, or if the notebook folds the code, only the output is
 // shown.
