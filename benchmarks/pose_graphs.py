@@ -68,8 +68,8 @@ def graph_rows(gtsam, name, path, quick):
     return rows + speed_rows(f"{name}: optimising", cpu_times(optimising, quick, 3.0))
 
 
-def gtsam_optimiser(gtsam, graph):
-    """Return a function that optimises a graph of poses by GTSAM, and one that returns the χ²."""
+def gtsam_factors(gtsam, graph):
+    """Return the factors of a graph of poses, its edges first, and its poses, for GTSAM."""
     factors, guesses = gtsam.NonlinearFactorGraph(), gtsam.Values()
     for edge in graph.edges:
         noise = gtsam.noiseModel.Gaussian.Information(edge.information)
@@ -80,6 +80,12 @@ def gtsam_optimiser(gtsam, graph):
         factors.add(gtsam.PriorFactorPose2(i, gtsam.Pose2(*graph.poses[i]), tight))
     for i, pose in enumerate(graph.poses):
         guesses.insert(i, gtsam.Pose2(*pose))
+    return factors, guesses
+
+
+def gtsam_optimiser(gtsam, graph):
+    """Return a function that optimises a graph of poses by GTSAM, and one that returns the χ²."""
+    factors, guesses = gtsam_factors(gtsam, graph)
     settings = gtsam.LevenbergMarquardtParams()
     settings.setMaxIterations(100)
 

@@ -39,6 +39,14 @@ SMALL = {  # what is set to run in seconds, and what the rows must compare: (nam
             ("wheels: width of the turn", "hull of sampled motions"),
         },
     ),
+    "false_loops": (
+        {"GRAPHS": ("CSAIL",)},
+        {
+            ("CSAIL, random false loops: solved: slamlab", "GTSAM's GNC"),
+            ("CSAIL, locally grouped false loops: slamlab", "GTSAM's GNC"),
+            ("CSAIL, grouped false loops: ambiguous of the solved", "2 %"),
+        },
+    ),
     "growth": (
         {"LANDMARKS": (5, 10), "POSES": (30, 60), "LAPS": (1, 2), "FITTED": 2},
         {
