@@ -12,15 +12,12 @@ class ExtraMissing(ImportError):
 @contextmanager
 def needs(extra, distribution=DISTRIBUTION):
     """Context for the import of optional dependencies: ``with needs("live"): import tornado``.
+    Raises ExtraMissing if one of the packages is not installed.
 
     Parameters
     ----------
     extra : str, name of the extra in ``pyproject.toml``
     distribution : str, distribution that has the extra
-
-    Raises
-    ------
-    ExtraMissing : one of the packages is not installed
     """
     try:
         yield

@@ -20,16 +20,12 @@ def log_odds(p):
 
 
 class OccupancyGrid:
-    """Occupancy grid: the log-odds that each cell is occupied; 0 means unknown.
+    """Occupancy grid: the log-odds that each cell is occupied; 0 means unknown. Raises ValueError.
 
     Parameters
     ----------
     resolution : float, side of a cell [m]
     corner : (2,) a point where four cells meet [m]
-
-    Raises
-    ------
-    ValueError
     """
 
     def __init__(self, resolution=0.05, corner=(0.0, 0.0)):
@@ -127,17 +123,13 @@ class OccupancyGrid:
 
 
 def build(poses, scans, resolution=0.05):
-    """Build an occupancy grid from scans.
+    """Build an occupancy grid from scans. Returns an OccupancyGrid.
 
     Parameters
     ----------
     poses : (n, 3) of the sensor [m, m, rad]
     scans : n Scans
     resolution : float, side of a cell [m]
-
-    Returns
-    -------
-    OccupancyGrid
     """
     grid = OccupancyGrid(resolution)
     for pose, scan in zip(poses, scans, strict=True):

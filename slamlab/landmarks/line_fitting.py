@@ -99,13 +99,7 @@ def scan_points(scan, sensor, floor=0.002):
 def total_least_squares(points):
     """Fit a line by total least squares (orthogonal regression). Equations (08.5) and (08.6).
 
-    Parameters
-    ----------
-    points : (n, 2) [m], at least two
-
-    Returns
-    -------
-    rho, alpha : floats, rho ≥ 0 [m], [rad]
+    points : (n, 2) [m], at least two. Returns rho ≥ 0 [m] and alpha [rad].
     """
     centre = points.mean(axis=0)
     x, y = (points - centre).T

@@ -53,7 +53,8 @@ THESIS = Ransac(window=25, min_inliers=21, band=0.015, grow=False, min_length=0.
 
 
 def lines(scan, sensor, rng, ransac=None):
-    """Extract the lines of the walls in a scan by RANSAC.
+    """Extract the lines of the walls in a scan by RANSAC. Returns a list of Line, the best
+    supported first.
 
     Parameters
     ----------
@@ -61,10 +62,6 @@ def lines(scan, sensor, rng, ransac=None):
     sensor : SensorModel
     rng : numpy.random.Generator
     ransac : Ransac, its defaults when None
-
-    Returns
-    -------
-    list of Line, the best supported first
     """
     ransac = ransac or Ransac()
     points = scan_points(scan, sensor)

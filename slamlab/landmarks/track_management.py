@@ -42,16 +42,12 @@ class TentativeWall:
 
 
 class TrackManager:
-    """Track management of tentative walls, until they are confirmed or deleted.
+    """Track management of tentative walls, until they are confirmed or deleted. Raises ValueError.
 
     Parameters
     ----------
     min_observations : int, number of observations that confirms a wall
     max_misses : int, number of scans in a row without an observation that deletes a wall
-
-    Raises
-    ------
-    ValueError
     """
 
     def __init__(self, min_observations, max_misses):

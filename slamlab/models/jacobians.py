@@ -11,13 +11,7 @@ def A_odometry(x, u):
     """Jacobian of the motion model: ∂f/∂x = [[1, 0, −Δy], [0, 1, Δx], [0, 0, 1]]. Equation (04.5).
     Smolec §4.1.
 
-    Parameters
-    ----------
-    x, u : (3,) [m, m, rad], (2,) [m, rad]
-
-    Returns
-    -------
-    (3, 3)
+    x : (3,) [m, m, rad]; u : (2,) [m, rad]. Returns (3, 3).
     """
     d = u[0]
     return np.array([[1, 0, -d * np.sin(x[2])], [0, 1, d * np.cos(x[2])], [0, 0, 1.0]])
@@ -26,28 +20,18 @@ def A_odometry(x, u):
 def W_odometry(x, u):
     """Jacobian of the motion model: ∂f/∂u = [[cos θ, 0], [sin θ, 0], [0, 1]]. Equation (04.6).
 
-    Parameters
-    ----------
-    x, u : (3,) [m, m, rad], (2,) [m, rad]
-
-    Returns
-    -------
-    (3, 2)
+    x : (3,) [m, m, rad]; u : (2,) [m, rad]. Returns (3, 2).
     """
     return np.array([[np.cos(x[2]), 0], [np.sin(x[2]), 0], [0, 1.0]])
 
 
 def A_steered(x, u, B, T):
-    """Jacobian of the motion model ``f_steered``: ∂f/∂x (MAK thesis, chapter 3).
+    """Jacobian of the motion model ``f_steered``: ∂f/∂x (MAK thesis, chapter 3). Returns (3, 3).
 
     Parameters
     ----------
     x, u : (3,) [m, m, rad], (2,) [m/s, rad]
     B, T : float [m], [s]
-
-    Returns
-    -------
-    (3, 3)
     """
     V, gamma = u
     direction = x[2] + gamma
@@ -57,16 +41,12 @@ def A_steered(x, u, B, T):
 
 
 def W_steered(x, u, B, T):
-    """Jacobian of the motion model ``f_steered``: ∂f/∂u (MAK thesis, chapter 3).
+    """Jacobian of the motion model ``f_steered``: ∂f/∂u (MAK thesis, chapter 3). Returns (3, 2).
 
     Parameters
     ----------
     x, u : (3,) [m, m, rad], (2,) [m/s, rad]
     B, T : float [m], [s]
-
-    Returns
-    -------
-    (3, 2)
     """
     V, gamma = u
     c, s = np.cos(x[2] + gamma), np.sin(x[2] + gamma)
@@ -78,13 +58,7 @@ def H_robot(x, p):
 
     [[(x−p_x)/r, (y−p_y)/r, 0], [(p_y−y)/r², (x−p_x)/r², −1]]
 
-    Parameters
-    ----------
-    x, p : (..., 3) [m, m, rad], (..., 2) [m]
-
-    Returns
-    -------
-    (..., 2, 3)
+    x : (..., 3) [m, m, rad]; p : (..., 2) [m]. Returns (..., 2, 3).
     """
     d = np.asarray(p, dtype=float) - np.asarray(x, dtype=float)[..., :2]
     dx, dy = d[..., 0], d[..., 1]
@@ -99,13 +73,7 @@ def H_robot(x, p):
 def H_landmark(x, p):
     """Jacobian of the measurement model: ∂h/∂p (Smolec (3)). Equation (04.10).
 
-    Parameters
-    ----------
-    x, p : (..., 3) [m, m, rad], (..., 2) [m]
-
-    Returns
-    -------
-    (..., 2, 2)
+    x : (..., 3) [m, m, rad]; p : (..., 2) [m]. Returns (..., 2, 2).
     """
     return -H_robot(x, p)[..., :2]
 
@@ -114,13 +82,7 @@ def J_xr(x, z):
     """Jacobian of the inverse measurement model: ∂g/∂x = [[1, 0, −r sin(θ+β)], [0, 1, r cos(θ+β)]]
     (Smolec (10), corrected). Equation (04.14).
 
-    Parameters
-    ----------
-    x, z : (3,) [m, m, rad], (..., 2) [m, rad]
-
-    Returns
-    -------
-    (..., 2, 3)
+    x : (3,) [m, m, rad]; z : (..., 2) [m, rad]. Returns (..., 2, 3).
     """
     z = np.asarray(z, dtype=float)
     r, direction = z[..., 0], x[2] + z[..., 1]
@@ -135,13 +97,7 @@ def J_z(x, z):
 
     [[cos(θ+β), −r sin(θ+β)], [sin(θ+β), r cos(θ+β)]]
 
-    Parameters
-    ----------
-    x, z : (..., 3) [m, m, rad], (..., 2) [m, rad]
-
-    Returns
-    -------
-    (..., 2, 2)
+    x : (..., 3) [m, m, rad]; z : (..., 2) [m, rad]. Returns (..., 2, 2).
     """
     x, z = np.asarray(x, dtype=float), np.asarray(z, dtype=float)
     r, direction = z[..., 0], x[..., 2] + z[..., 1]
@@ -152,13 +108,7 @@ def J_z(x, z):
 def H_robot_line(x, line):
     """Jacobian of the measurement model: ∂h_line/∂x = [[−cos α, −sin α, 0], [0, 0, −1]].
 
-    Parameters
-    ----------
-    x, line : (3,) [m, m, rad], (..., 2) [m, rad]
-
-    Returns
-    -------
-    (..., 2, 3)
+    x : (3,) [m, m, rad]; line : (..., 2) [m, rad]. Returns (..., 2, 3).
     """
     alpha = np.asarray(line, dtype=float)[..., 1]
     H = np.zeros((*alpha.shape, 2, 3))
@@ -169,13 +119,7 @@ def H_robot_line(x, line):
 def H_line(x, line):
     """Jacobian of the measurement model: ∂h_line/∂line = [[1, x sin α − y cos α], [0, 1]].
 
-    Parameters
-    ----------
-    x, line : (3,) [m, m, rad], (..., 2) [m, rad]
-
-    Returns
-    -------
-    (..., 2, 2)
+    x : (3,) [m, m, rad]; line : (..., 2) [m, rad]. Returns (..., 2, 2).
     """
     alpha = np.asarray(line, dtype=float)[..., 1]
     H = np.zeros((*alpha.shape, 2, 2))
@@ -187,13 +131,7 @@ def H_line(x, line):
 def J_xr_line(x, z):
     """Jacobian of g_line: ∂g_line/∂x = [[cos α, sin α, −x sin α + y cos α], [0, 0, 1]], α = θ + α'.
 
-    Parameters
-    ----------
-    x, z : (3,) [m, m, rad], (..., 2) [m, rad]
-
-    Returns
-    -------
-    (..., 2, 3)
+    x : (3,) [m, m, rad]; z : (..., 2) [m, rad]. Returns (..., 2, 3).
     """
     alpha = x[2] + np.asarray(z, dtype=float)[..., 1]
     c, s = np.cos(alpha), np.sin(alpha)
@@ -206,13 +144,7 @@ def J_xr_line(x, z):
 def J_z_line(x, z):
     """Jacobian of g_line: ∂g_line/∂z = [[1, −x sin α + y cos α], [0, 1]], α = θ + α'.
 
-    Parameters
-    ----------
-    x, z : (3,) [m, m, rad], (..., 2) [m, rad]
-
-    Returns
-    -------
-    (..., 2, 2)
+    x : (3,) [m, m, rad]; z : (..., 2) [m, rad]. Returns (..., 2, 2).
     """
     J = np.zeros((*np.shape(z)[:-1], 2, 2))
     J[..., 0, 0] = J[..., 1, 1] = 1

@@ -10,14 +10,12 @@ def f_odometry(x, u):
 
     x' = x + d cos θ,  y' = y + d sin θ,  θ' = θ + Δθ
 
+    Returns (3,).
+
     Parameters
     ----------
     x : (3,) pose [m, m, rad]
     u : (2,) d [m], Δθ [rad]
-
-    Returns
-    -------
-    (3,)
     """
     d, turn = u
     return np.array([x[0] + d * np.cos(x[2]), x[1] + d * np.sin(x[2]), wrap(x[2] + turn)])
@@ -28,15 +26,13 @@ def f_steered(x, u, B, T):
 
     x' = x + T V cos(θ+γ),  y' = y + T V sin(θ+γ),  θ' = θ + (T V / B) sin γ
 
+    Returns (3,).
+
     Parameters
     ----------
     x : (3,) pose [m, m, rad]
     u : (2,) speed V [m/s], steering angle γ [rad]
     B, T : float, wheel base [m], period [s]
-
-    Returns
-    -------
-    (3,)
     """
     V, gamma = u
     return np.array(

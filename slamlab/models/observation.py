@@ -10,14 +10,12 @@ def h(x, p):
 
     r = |p − t|,  β = atan2(p_y − y, p_x − x) − θ
 
+    Returns (..., 2) r [m], β [rad], wrapped.
+
     Parameters
     ----------
     x : (..., 3) poses [m, m, rad]
     p : (..., 2) landmarks [m]
-
-    Returns
-    -------
-    (..., 2) r [m], β [rad], wrapped
     """
     x = np.asarray(x, dtype=float)
     d = np.asarray(p, dtype=float) - x[..., :2]
@@ -29,16 +27,12 @@ def h(x, p):
 
 def g(x, z):
     """Inverse measurement model (inverse observation model): p = t + r [cos(θ+β), sin(θ+β)].
-    Equation (04.13).
+    Equation (04.13). Returns (..., 2) landmarks [m].
 
     Parameters
     ----------
     x : (..., 3) poses [m, m, rad]
     z : (..., 2) r [m], β [rad]
-
-    Returns
-    -------
-    (..., 2) landmarks [m]
     """
     x, z = np.asarray(x, dtype=float), np.asarray(z, dtype=float)
     r, direction = z[..., 0], x[..., 2] + z[..., 1]
@@ -52,14 +46,12 @@ def h_line(x, line):
 
     ρ' = ρ − x cos α − y sin α,  α' = α − θ; behind the wall ρ' is negative.
 
+    Returns (..., 2) ρ' [m], α' [rad], wrapped.
+
     Parameters
     ----------
     x : (3,) pose [m, m, rad]
     line : (..., 2) ρ [m], α [rad]
-
-    Returns
-    -------
-    (..., 2) ρ' [m], α' [rad], wrapped
     """
     line = np.asarray(line, dtype=float)
     rho, alpha = line[..., 0], line[..., 1]
@@ -69,15 +61,12 @@ def h_line(x, line):
 
 def g_line(x, z):
     """Inverse measurement model of a line: α = θ + α', ρ = ρ' + x cos α + y sin α. Equation (09.2).
+    Returns (..., 2) ρ [m], α [rad], wrapped.
 
     Parameters
     ----------
     x : (3,) pose [m, m, rad]
     z : (..., 2) ρ' [m], α' [rad]
-
-    Returns
-    -------
-    (..., 2) ρ [m], α [rad], wrapped
     """
     z = np.asarray(z, dtype=float)
     alpha = wrap(x[2] + z[..., 1])

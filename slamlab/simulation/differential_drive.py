@@ -59,18 +59,14 @@ class DifferentialDrive:
 def arc(left, right, base):
     """Motion model of a differential drive (forward kinematics): the odometry increment.
 
-    The path is an exact circular arc about the instantaneous centre of rotation.
-    Equations (02.14), (02.15), (12.2) and (12.4): d = (l+r)/2, Δθ = (r−l)/base, chord
-    d·sin(Δθ/2)/(Δθ/2) at bearing Δθ/2.
+    The path is an exact circular arc about the instantaneous centre of rotation. Equations (02.14),
+    (02.15), (12.2) and (12.4): d = (l+r)/2, Δθ = (r−l)/base, chord d·sin(Δθ/2)/(Δθ/2) at bearing
+    Δθ/2. Returns (3,) [m, m, rad].
 
     Parameters
     ----------
     left, right : float, distances travelled by the wheels [m]
     base : float, wheel base [m]
-
-    Returns
-    -------
-    (3,) [m, m, rad]
     """
     turn = (right - left) / base
     chord = (left + right) / 2 * np.sinc(turn / 2 / np.pi)
@@ -111,7 +107,8 @@ class Simulator:
 
 
 def follow_waypoints(simulator, waypoints, v=0.4, omega=0.6, period=0.5):
-    """Follow waypoints with a controller that uses the true pose (waypoint following).
+    """Follow waypoints with a controller that uses the true pose (waypoint following). Yields the
+    command v, omega (2,) and the odometry increment (3,) [m, m, rad].
 
     Parameters
     ----------
@@ -119,10 +116,6 @@ def follow_waypoints(simulator, waypoints, v=0.4, omega=0.6, period=0.5):
     waypoints : (n, 2) [m]
     v, omega : float, maximum speed and turn rate [m/s, rad/s]
     period : float, duration of a command [s]
-
-    Yields
-    ------
-    (2,) command v, omega and (3,) odometry increment [m, m, rad]
     """
     for goal in np.asarray(waypoints, dtype=float):
         for _ in range(10_000):  # with excessive slip the robot never arrives

@@ -133,11 +133,7 @@ RPLIDAR_A2 = Scanner(
 )
 # An A1M8 by its data sheet: 8000 samples/s, 5.5 revolutions/s, 0.15 to 12 m, 1 % of the range.
 RPLIDAR_A1 = Scanner(
-    beams=1455,
-    range_min=0.15,
-    bearing_sigma=np.radians(0.1),
-    dropouts=0.01,
-    rate=5.5,
+    beams=1455, range_min=0.15, bearing_sigma=np.radians(0.1), dropouts=0.01, rate=5.5
 )
 # A C1 (time of flight) by its data sheet: 5000 samples/s, 10 revolutions/s, 0.05 to 12 m,
 # ±30 mm = 2 σ.

@@ -11,17 +11,14 @@ CHORDS = 48  # sides of the polygon that approximates a circle in drawings
 
 @dataclass(frozen=True)
 class World:
-    """Ground-truth map: straight walls and circles in the plane.
+    """Ground-truth map: straight walls and circles in the plane. Raises ValueError if a row is not
+    a wall or a circle; the message contains the row.
 
     Parameters
     ----------
     walls : (n, 4) rows x1 y1 x2 y2 [m]
     circles : (m, 3) rows x y radius [m]
     name : str
-
-    Raises
-    ------
-    ValueError : a row is not a wall or a circle; the message contains the row
     """
 
     walls: np.ndarray = field(default_factory=lambda: np.empty((0, 4)))
@@ -52,29 +49,19 @@ class World:
 def ring(corners):
     """Create the walls of a closed polygon.
 
-    Parameters
-    ----------
-    corners : (n, 2) in order [m]
-
-    Returns
-    -------
-    (n, 4) rows x1 y1 x2 y2 [m]
+    corners : (n, 2) in order [m]. Returns (n, 4) rows x1 y1 x2 y2 [m].
     """
     corners = np.asarray(corners, dtype=float)
     return np.hstack([corners, np.roll(corners, -1, axis=0)])
 
 
 def box(centre, size, turn=0.0):
-    """Create the walls of a rotated rectangle.
+    """Create the walls of a rotated rectangle. Returns (4, 4) rows x1 y1 x2 y2 [m].
 
     Parameters
     ----------
     centre, size : (2,) [m]
     turn : float [rad]
-
-    Returns
-    -------
-    (4, 4) rows x1 y1 x2 y2 [m]
     """
     c, s = np.cos(turn), np.sin(turn)
     half = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) * np.asarray(size) / 2
