@@ -34,6 +34,7 @@ class EkfSlam(Estimator):
     """EKF-SLAM with point landmarks: those of the source, or corners of its scans.
 
     Points are associated with the nearest landmark, corners with the nearest compatible landmark.
+    Raises ValueError.
 
     Parameters
     ----------
@@ -43,10 +44,6 @@ class EkfSlam(Estimator):
     smoothing : float in [0, 1), exponential smoothing of the displayed pose [1]
     landmark_smoothing : float in [0, 1), exponential smoothing of displayed landmarks [1]
     rng : numpy.random.Generator, for RANSAC; seed 0 when None
-
-    Raises
-    ------
-    ValueError
     """
 
     def __init__(

@@ -36,21 +36,14 @@ WITHOUT_ODOMETRY = "icp", "graph", "walls"  # these use laser odometry instead
 
 
 def make(name, source, **options):
-    """Create an estimator from its name and the robot and sensor models of a source.
+    """Create an estimator from its name and the robot and sensor models of a source. Returns an
+    Estimator. Raises ValueError for an unknown name or option, or a value out of range.
 
     Parameters
     ----------
     name : str, one of NAMES
     source : Source
     options : see :data:`slamlab.estimators.options.TAKES`
-
-    Returns
-    -------
-    Estimator
-
-    Raises
-    ------
-    ValueError : unknown name or option, value out of range
     """
     if name not in FACTORIES:
         raise ValueError(f"unknown estimator {name!r}; choose from {', '.join(NAMES)}")

@@ -35,7 +35,7 @@ class FootPointSlam(Estimator):
 
     A foot point is a pseudo-observation: it is computed from the estimated pose, but treated as
     measured. A landmark is initialised at its first observation. It becomes a confirmed landmark,
-    which corrects the pose, at its N-th observation (5 in the thesis).
+    which corrects the pose, at its N-th observation (5 in the thesis). Raises ValueError.
 
     Parameters
     ----------
@@ -49,10 +49,6 @@ class FootPointSlam(Estimator):
     samples : int, RANSAC_SAMPLE: random points, unless "distinct-lines"
     c : float, of Q as printed: variance as a share of the squared step [1]
     corrections : collection of names of CORRECTIONS
-
-    Raises
-    ------
-    ValueError
     """
 
     def __init__(

@@ -23,9 +23,7 @@ class IcpSlam(Estimator):
 
     Without odometry, the estimator uses laser odometry and shows no naive pose or map.
 
-    Parameters
-    ----------
-    plain : bool, the thesis' ICP: point-to-point, no outlier rejection; otherwise point-to-line
+    plain : bool, the thesis' ICP: point-to-point, no outlier rejection; otherwise point-to-line.
     """
 
     def __init__(self, plain=False):

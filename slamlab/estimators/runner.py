@@ -36,17 +36,13 @@ class Run:
 
 
 def run(source, estimator, on_step=None):
-    """Run an estimator over all readings of a source.
+    """Run an estimator over all readings of a source. Returns a Run.
 
     Parameters
     ----------
     source : Source
     estimator : Estimator
     on_step : callable(reading, estimator) or None, called after each step
-
-    Returns
-    -------
-    Run
     """
     start, frames, odometry = time.perf_counter(), 0, OdometryCheck(source.sensor)
     for reading in source:

@@ -33,7 +33,7 @@ class SetMembershipSlam(Estimator):
 
     The robot's box is the intersection of two predictions: one proceeds step by step, one from the
     start by the covariance of the accumulated odometry. Equation (12.5). An observation that
-    contradicts the map is rejected, and the estimate is ``lost``.
+    contradicts the map is rejected, and the estimate is ``lost``. Raises ValueError.
 
     Parameters
     ----------
@@ -45,10 +45,6 @@ class SetMembershipSlam(Estimator):
     motion_sigmas : float, for a step's odometry; ``sigmas`` when None [1]
     accumulated_sigmas : float, for the odometry since the start; unbounded when None [1]
     association : str, see :class:`CornerAssociation`; with ``boxes`` "own"
-
-    Raises
-    ------
-    ValueError
     """
 
     def __init__(

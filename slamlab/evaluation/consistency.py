@@ -10,40 +10,25 @@ TRACY_WIDOM = 46.446, 0.186054, 9.84801
 
 def nees(error, P):
     """Compute the NEES (normalised estimation error squared) x̃ᵀ P⁻¹ x̃ (Bar-Shalom, Li,
-    Kirubarajan 2001, 5.4).
+    Kirubarajan 2001, 5.4). Returns (...,) χ² with n degrees of freedom if consistent. Raises
+    ValueError for shapes that do not fit and for P that is not positive definite.
 
     Parameters
     ----------
     error : (..., n) estimate minus truth, angles wrapped
     P : (..., n, n) covariance by the filter
-
-    Returns
-    -------
-    (...,) χ² with n degrees of freedom if consistent
-
-    Raises
-    ------
-    ValueError : shapes that do not fit, P not positive definite
     """
     white = _whiten(error, P)
     return np.sum(white**2, axis=-1)
 
 
 def nis(innovation, S):
-    """Compute the NIS (normalised innovation squared) vᵀ S⁻¹ v.
+    """Compute the NIS (normalised innovation squared) vᵀ S⁻¹ v. Returns (...,). Raises ValueError.
 
     Parameters
     ----------
     innovation : (..., m) v = z − h(x)
     S : (..., m, m) H P Hᵀ + R
-
-    Returns
-    -------
-    (...,)
-
-    Raises
-    ------
-    ValueError
     """
     return nees(innovation, S)
 
@@ -51,20 +36,13 @@ def nis(innovation, S):
 def band(size, runs, probability=0.95):
     """Chi-squared interval of the NEES consistency test (chi-squared band, χ² acceptance interval)
     for the average of Monte Carlo runs at one step: runs · average ~ χ² with runs · size degrees.
+    Returns low and high. Raises ValueError.
 
     Parameters
     ----------
     size : int, of the error or the innovation
     runs : int, independent ones
     probability : float [1]
-
-    Returns
-    -------
-    low, high : floats
-
-    Raises
-    ------
-    ValueError
     """
     from scipy.special import gammaincinv  # scipy.stats takes a third of a second to load
 
@@ -99,21 +77,14 @@ class Consistency:
 
 def consistency(errors, P, probability=0.95):
     """Test whether the covariance is conservative, P − E[x̃ x̃ᵀ] ⪰ 0 (which the MAK thesis, chapter
-    2, calls consistent): with P = L Lᵀ and w = L⁻¹ x̃, all eigenvalues of E[w wᵀ] must be at most 1.
+    2, calls consistent): with P = L Lᵀ and w = L⁻¹ x̃, all eigenvalues of E[w wᵀ] must be at most
+    1. Returns a Consistency. Raises ValueError for fewer runs than components, and as :func:`nees`.
 
     Parameters
     ----------
     errors : (runs, n) estimate minus truth at one step, angles wrapped
     P : (runs, n, n) covariance by the filter
     probability : float, that a filter with P = E[x̃ x̃ᵀ] passes [1]
-
-    Returns
-    -------
-    Consistency
-
-    Raises
-    ------
-    ValueError : fewer runs than components, or as :func:`nees`
     """
     white = np.atleast_2d(_whiten(errors, P))
     runs, n = white.shape

@@ -9,17 +9,14 @@ def inside(box, point):
 
 
 def outside(bor, pose, landmarks):
-    """List the parts of the true state that are outside their boxes or interval.
+    """List the parts of the true state that are outside their boxes or interval. Returns a list of
+    "robot", "heading" and ids.
 
     Parameters
     ----------
     bor : BOR
     pose : (3,) the true pose [m, m, rad]
     landmarks : (n, 2) the true landmarks; their ids are the rows [m]
-
-    Returns
-    -------
-    list of "robot", "heading" and ids
     """
     found = [] if inside(bor.robot.tolist(), pose) else ["robot"]
     found += [] if contains(bor.heading.tolist(), pose[2]) else ["heading"]

@@ -6,17 +6,8 @@ import numpy as np
 def correlation(P):
     """Compute the correlation coefficients ρ_ij = P_ij / √(P_ii P_jj); 0 if a variance is 0.
 
-    Parameters
-    ----------
-    P : (..., n, n) symmetric positive semidefinite
-
-    Returns
-    -------
-    (..., n, n), from −1 to 1
-
-    Raises
-    ------
-    ValueError
+    P : (..., n, n) symmetric positive semidefinite. Returns (..., n, n), from −1 to 1. Raises
+    ValueError.
     """
     P = np.asarray(P, dtype=float)
     if P.ndim < 2 or P.shape[-1] != P.shape[-2]:

@@ -10,13 +10,8 @@ from slamlab.geometry import between
 def twist(motion):
     """Compute the logarithm of SE(2): [v_x, v_y] = (θ/2) [[cot(θ/2), 1], [−1, cot(θ/2)]] [x, y].
 
-    Parameters
-    ----------
-    motion : (..., 3) [m, m, rad]
-
-    Returns
-    -------
-    (..., 3) [m, m, rad], the twist of the motion in unit time
+    motion : (..., 3) [m, m, rad]. Returns (..., 3) [m, m, rad], the twist of the motion in unit
+    time.
     """
     x, y, theta = np.moveaxis(np.asarray(motion, dtype=float), -1, 0)
     half = theta / 2
@@ -26,20 +21,12 @@ def twist(motion):
 
 def pose_nees(poses, P, truth):
     """Compute the NEES of the twist from each estimate to the truth; to first order, the twist is
-    the error in the robot's frame.
+    the error in the robot's frame. Returns (...,). Raises ValueError as :func:`nees`.
 
     Parameters
     ----------
     poses, truth : (..., 3) [m, m, rad]
     P : (..., 3, 3) covariance of the poses, in the map's frame
-
-    Returns
-    -------
-    (...,)
-
-    Raises
-    ------
-    ValueError : as :func:`nees`
     """
     poses = np.asarray(poses, dtype=float)
     c, s = np.cos(poses[..., 2]), np.sin(poses[..., 2])

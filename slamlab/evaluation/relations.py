@@ -54,17 +54,8 @@ class RelationsError:
 def load_relations(path):
     """Load relations from rows t1 t2 x y z roll pitch yaw or from columns that a header names.
 
-    Parameters
-    ----------
-    path : str or Path, plain or gzip, or a recording's name
-
-    Returns
-    -------
-    Relations
-
-    Raises
-    ------
-    SourceError : no relation, or headings in degrees
+    path : str or Path, plain or gzip, or a recording's name. Returns a Relations. Raises
+    SourceError if there is no relation, or for headings in degrees.
     """
     table = TextTable(resolve(path), ROW)
     columns = {name: (i, None) for i, name in enumerate(NAMES)}
@@ -93,21 +84,14 @@ def load_relations(path):
 
 def relations_error(trajectory, relations, tolerance=TIME_TOLERANCE):
     """Compute the mean translation and rotation of e = δ* ⊖ (x_2 ⊖ x_1) over relations δ* (Kümmerle
-    et al. 2009, equation 3).
+    et al. 2009, equation 3). Returns a RelationsError. Raises ValueError if no relation has both
+    timestamps in the trajectory.
 
     Parameters
     ----------
     trajectory : Trajectory, times [s], poses [m, m, rad]
     relations : Relations
     tolerance : float, largest difference of the timestamps of a relation and a pose [s]
-
-    Returns
-    -------
-    RelationsError
-
-    Raises
-    ------
-    ValueError : no relation has both timestamps in the trajectory
     """
     pairs, wanted = usable_relations(trajectory.times, relations, tolerance)
     error = relation_residuals(trajectory.poses, pairs, wanted)

@@ -30,20 +30,13 @@ class TrajectoryError:
 
 def absolute_error(estimate, truth, tolerance=TOLERANCE):
     """Compute the absolute trajectory error (ATE, APE) of poses associated by time, with the first
-    poses aligned: e_i = (x*_0⁻¹ x*_i)⁻¹ (x_0⁻¹ x_i).
+    poses aligned: e_i = (x*_0⁻¹ x*_i)⁻¹ (x_0⁻¹ x_i). Returns a TrajectoryError. Raises ValueError
+    if the times do not match, with the reason: unit, epoch, offset, not ascending.
 
     Parameters
     ----------
     estimate, truth : Trajectory, times [s], poses [m, m, rad]
     tolerance : float, most that the times of a pair differ [s]
-
-    Returns
-    -------
-    TrajectoryError
-
-    Raises
-    ------
-    ValueError : the times do not match, with the reason: unit, epoch, offset, not ascending
     """
     estimated, true = _paired_poses(estimate, truth, tolerance)
     errors = between(between(true[0], true), between(estimated[0], estimated))
@@ -52,21 +45,14 @@ def absolute_error(estimate, truth, tolerance=TOLERANCE):
 
 def relative_error(estimate, truth, steps=1, tolerance=TOLERANCE):
     """Compute the relative pose error (RPE) over k steps of poses associated by time: e_i = (x*_i⁻¹
-    x*_{i+k})⁻¹ (x_i⁻¹ x_{i+k}).
+    x*_{i+k})⁻¹ (x_i⁻¹ x_{i+k}). Returns a TrajectoryError. Raises ValueError if the times do not
+    match, see :func:`absolute_error`, or for too few poses.
 
     Parameters
     ----------
     estimate, truth : Trajectory, times [s], poses [m, m, rad]
     steps : int, k
     tolerance : float, most that the times of a pair differ [s]
-
-    Returns
-    -------
-    TrajectoryError
-
-    Raises
-    ------
-    ValueError : the times do not match, see :func:`absolute_error`, or too few poses
     """
     estimated, true = _paired_poses(estimate, truth, tolerance)
     if not 1 <= steps < len(true):

@@ -20,16 +20,13 @@ EXPECTED = "rows that are not finite", "quaternions of length 0", "file truncate
 
 
 def save_tum(trajectory, path):
-    """Save a trajectory as a TUM file that contains all digits of times and positions.
+    """Save a trajectory as a TUM file that contains all digits of times and positions. Raises
+    SourceError.
 
     Parameters
     ----------
     trajectory : Trajectory, times [s], poses [m, m, rad]
     path : str or Path
-
-    Raises
-    ------
-    SourceError
     """
     x, y, theta = trajectory.poses.T
     zero = np.zeros(len(trajectory))
@@ -47,17 +44,9 @@ def load_trajectory(path):
     """Load a trajectory from a TUM, EuRoC or KITTI file, or from a table with a header, such as
     ``trajectory.csv`` of ``slamlab run``. A warning reports skipped rows and assumptions.
 
-    Parameters
-    ----------
-    path : str or Path, plain or gzip
-
-    Returns
-    -------
-    Trajectory, times [s], poses [m, m, rad] projected to the plane
-
-    Raises
-    ------
-    SourceError : no trajectory, or timestamps that are not ascending
+    path : str or Path, plain or gzip. Returns a Trajectory, times [s], poses [m, m, rad] projected
+    to the plane. Raises SourceError if there is no trajectory, or for timestamps that are not
+    ascending.
     """
     table = TextTable(path, f"pose: {FORMATS}")
     kind, columns = columns_of(table)

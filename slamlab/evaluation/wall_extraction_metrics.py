@@ -12,6 +12,7 @@ MAX_DISTANCE, MAX_ANGLE = 0.1, 0.14  # largest distance and angle of a matching 
 
 def recall_metres(world, pose, scan, lines):
     """Compute the recall: metres of wall that a scan observes, and metres that the lines cover.
+    Returns seen and found [m].
 
     Parameters
     ----------
@@ -19,10 +20,6 @@ def recall_metres(world, pose, scan, lines):
     pose : (3,) the true pose [m, m, rad]
     scan : Scan
     lines : list of Line
-
-    Returns
-    -------
-    seen, found : floats [m]
     """
     ends = np.array([transform(pose, line.ends).ravel() for line in lines]).reshape(-1, 4)
     seen = found = 0
@@ -33,17 +30,14 @@ def recall_metres(world, pose, scan, lines):
 
 
 def precision_metres(world, pose, lines):
-    """Compute the precision: metres of lines that are on a wall, and metres that are not.
+    """Compute the precision: metres of lines that are on a wall, and metres that are not. Returns
+    right and wrong [m].
 
     Parameters
     ----------
     world : World
     pose : (3,) the true pose [m, m, rad]
     lines : list of Line
-
-    Returns
-    -------
-    right, wrong : floats [m]
     """
     right = wrong = 0
     for line in lines:

@@ -14,9 +14,7 @@ from slamlab.filters.ekf_slam_filter import MAK
 class CompressedEKF:
     """Compressed EKF-SLAM, which updates the global map only when the robot changes regions.
 
-    Parameters
-    ----------
-    mak : MAK, the global map; outside the region it is out of date until :meth:`settle`
+    mak : MAK, the global map; outside the region it is out of date until :meth:`settle`.
     """
 
     def __init__(self, mak: MAK):

@@ -16,6 +16,7 @@ from slamlab.geometry import wrap
 
 class MAK(AugmentedState):
     """EKF-SLAM: joint estimate of the robot's pose and the landmarks, with their correlations.
+    Raises ValueError.
 
     Parameters
     ----------
@@ -24,10 +25,6 @@ class MAK(AugmentedState):
     first_estimates : bool, first-estimates Jacobians (Huang, Mourikis, Roumeliotis 2010)
     drop_cross_terms_for_demonstration : bool, drop all cross-covariances, which is wrong
     kind : LandmarkModel
-
-    Raises
-    ------
-    ValueError
     """
 
     def __init__(

@@ -7,7 +7,8 @@ from slamlab.scanmatching.adaptive_neighbourhoods import neighbourhoods_above_no
 
 
 def normals(points, neighbours=7, radius=1.0, flatness=0.5):
-    """Estimate unit normals by PCA of nearest neighbours, φ = ½ atan2(2 s_xy, s_xx − s_yy).
+    """Estimate unit normals by PCA of nearest neighbours, φ = ½ atan2(2 s_xy, s_xx − s_yy). Returns
+    (n, 2), rows of NaN where no line fits. Raises ValueError.
 
     Parameters
     ----------
@@ -15,14 +16,6 @@ def normals(points, neighbours=7, radius=1.0, flatness=0.5):
     neighbours : int, points of a line fit; more if so few are dominated by noise
     radius : float, farther neighbours are ignored [m]
     flatness : float, largest ratio of the standard deviations across and along the line [1]
-
-    Returns
-    -------
-    (n, 2), rows of NaN where no line fits
-
-    Raises
-    ------
-    ValueError
     """
     points = np.asarray(points, dtype=float)
     if points.ndim != 2 or points.shape[1] != 2:

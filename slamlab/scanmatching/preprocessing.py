@@ -132,20 +132,13 @@ def rotation(theta):
 
 def preprocess(points, name="cloud"):
     """Preprocess a point cloud for registration; points in order of bearing around the origin are
-    treated as a scan.
+    treated as a scan. Returns a PointCloud. Raises ValueError for a wrong shape, fewer than 3
+    points, or NaN.
 
     Parameters
     ----------
     points : (n, 2) [m], n >= 3, or a PointCloud, which is returned
     name : str, for error messages
-
-    Returns
-    -------
-    PointCloud
-
-    Raises
-    ------
-    ValueError : wrong shape, fewer than 3 points, NaN
     """
     if isinstance(points, PointCloud):
         return points

@@ -69,7 +69,8 @@ class Alignment(Match):
 def match(
     source, target, initial=(0.0, 0.0, 0.0), *, search=None, max_iterations=30, history=False
 ):
-    """Match scans: register a source point cloud to a target, which is a scan or a submap.
+    """Match scans: register a source point cloud to a target, which is a scan or a submap. Returns
+    an Alignment. Raises ValueError for unusable points or max_iterations.
 
     Parameters
     ----------
@@ -79,14 +80,6 @@ def match(
         None: all rotations, if the match from the guess is poor
     max_iterations : int
     history : bool, keep an Iteration for each step
-
-    Returns
-    -------
-    Alignment
-
-    Raises
-    ------
-    ValueError : unusable points or max_iterations
     """
     initial = check_pose(initial)
     if max_iterations < 1:

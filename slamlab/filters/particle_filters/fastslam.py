@@ -17,6 +17,7 @@ from slamlab.models import jacobians, observation
 
 class FastSLAM:
     """FastSLAM 1.0 (Montemerlo et al. 2002): the proposal is the motion model. Equation (11.11).
+    Raises ValueError.
 
     Parameters
     ----------
@@ -26,10 +27,6 @@ class FastSLAM:
 
     ``robot`` is the ParticleSet of poses; ``p`` (n, N, 2) and ``P`` (n, N, 2, 2) are the means and
     covariances of the landmarks of each particle.
-
-    Raises
-    ------
-    ValueError
     """
 
     def __init__(self, rng, particles=200, pose=(0.0, 0.0, 0.0)):

@@ -19,7 +19,7 @@ class IndependentParticleSets:
     Each set is updated with random particles of the others, so correlations are lost and the filter
     is overconfident. Unlike in the thesis, the likelihood is a mean over ``partners`` particles,
     equation (11.9), a scan updates only observed landmarks, and roughening follows the resampling
-    of a set that has not moved.
+    of a set that has not moved. Raises ValueError.
 
     Parameters
     ----------
@@ -32,10 +32,6 @@ class IndependentParticleSets:
 
     ``robot`` is V_r, ``landmark_sets`` the V_L by id. ``depleted`` counts updates after which the
     effective sample size was below two (particle degeneracy).
-
-    Raises
-    ------
-    ValueError
     """
 
     def __init__(

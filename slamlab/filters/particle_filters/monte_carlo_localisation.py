@@ -10,6 +10,7 @@ from slamlab.filters.particle_filters.particle_set import RESAMPLING_THRESHOLD, 
 
 class MCL:
     """Particle filter of the pose in a known map: corrected algorithm 1 (MAK). Equation (11.3).
+    Raises ValueError.
 
     Parameters
     ----------
@@ -19,10 +20,6 @@ class MCL:
 
     ``unexplained`` counts scans of likelihood 0, which are ignored. ``depleted`` counts scans after
     which the effective sample size was below two (particle degeneracy).
-
-    Raises
-    ------
-    ValueError
     """
 
     def __init__(self, particles, landmarks, rng):

@@ -22,7 +22,8 @@ from slamlab.filters.set_membership.prediction import predict_box
 
 
 class BOR:
-    """Set-membership (bounded-error) SLAM: a bounding box for the robot and each landmark.
+    """Set-membership (bounded-error) SLAM: a bounding box for the robot and each landmark. Raises
+    ValueError.
 
     Parameters
     ----------
@@ -32,10 +33,6 @@ class BOR:
     capacity : int, landmarks to allocate memory for
 
     ``ambiguous`` counts observations that were ignored because several landmarks overlapped them.
-
-    Raises
-    ------
-    ValueError
     """
 
     def __init__(self, robot, heading, landmarks=None, capacity=100):
