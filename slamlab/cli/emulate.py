@@ -94,7 +94,7 @@ def tcp_of(arguments):
 def announce(running):
     for name, port in running.ports.items():
         print(f"{name:5}  {port}")
-    print(f"Example: slamlab run devices:{','.join(running.ports.values())}")
+    print(f"Example: slamlab live devices:{','.join(running.ports.values())}")
     print("Press Ctrl-C to end.", flush=True)
 
 

@@ -30,7 +30,7 @@ def add_parser(subparsers):
         "devices: --estimator graph --record flat.rec.gz",
     )
     add = parser.add_argument
-    add("--map", metavar="FILE", type=Path, help="New PNG file for the map")
+    add("--map", metavar="FILE", type=Path, help="New PNG file for the map (saved at the end)")
     add("--film", metavar="FILE", type=Path, help="New file for a film of the run")
     record = "New file for a raw recording of all device bytes"
     add("--record", metavar="FILE", type=Path, help=record)
@@ -104,3 +104,6 @@ async def _serve(arguments, live_run, console_server):
         console_server.read_terminal(panel, asyncio.get_running_loop())
 
     await console_server.serve(panel, arguments.port, started)
+    await panel.save_last_map()
+    if arguments.map is not None and not arguments.map.exists():
+        print(panel.message)

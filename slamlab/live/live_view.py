@@ -42,7 +42,8 @@ def watch(
 
     Any other running view stops. A source created here is closed when the cell is run again or the
     view is closed. The functions below receive the run: ``source``, ``estimator``, ``others``,
-    ``count`` (readings) and ``time`` [s].
+    ``count`` (readings) and ``time`` [s]. Returns a RunLoop. Raises ValueError without alt text,
+    and for a script if the source cannot be driven.
 
     Parameters
     ----------
@@ -64,14 +65,6 @@ def watch(
     play : bool, whether to run at once, unless the reader prefers reduced motion
     size : (width, height) [pixels]
     raster : bool, without anywidget
-
-    Returns
-    -------
-    RunLoop
-
-    Raises
-    ------
-    ValueError : no alt text, or a script for a source that cannot be driven
     """
     stop()
     loops = _loops_of_this_cell()

@@ -8,16 +8,13 @@ from slamlab.layers import Points, Poses, Segments
 
 
 def shift_layers(make, **shifts):
-    """Wrap an estimator factory so that some layers are shifted or omitted.
+    """Wrap an estimator factory so that some layers are shifted or omitted. Returns
+    callable(source) -> Estimator.
 
     Parameters
     ----------
     make : callable(source) -> Estimator
     shifts : by a layer's name: (dx, dy) to shift it [m], or None to omit it
-
-    Returns
-    -------
-    callable(source) -> Estimator
     """
     return lambda source: _ShiftedLayers(make(source), shifts)
 

@@ -9,7 +9,8 @@ from slamlab.files import SourceError
 
 @dataclass(frozen=True)
 class CalibrationOverrides:
-    """Calibration values that replace those of a source; none by default.
+    """Calibration values that replace those of a source; none by default. Raises SourceError if a
+    number is out of range.
 
     Parameters
     ----------
@@ -19,10 +20,6 @@ class CalibrationOverrides:
     range_scale, odometry_scale : float, units of the ranges and of the odometry's distances [m]
     turn_scale : float, unit of the odometry's rotations [rad]
     ignore_odometry : bool, whether to remove the odometry
-
-    Raises
-    ------
-    SourceError : a number is out of range
     """
 
     upside_down: bool = False

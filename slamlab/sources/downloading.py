@@ -32,7 +32,8 @@ class Unavailable(SourceError):
 
 
 def fetch(name, origin="", folder=None, progress=lambda percent: None):
-    """Fetch a public recording, unless it is there already.
+    """Fetch a public recording, unless it is there already. Returns (path, whether the file was
+    fetched now).
 
     Parameters
     ----------
@@ -40,10 +41,6 @@ def fetch(name, origin="", folder=None, progress=lambda percent: None):
     origin : str, folder or address that has the files; by default their published addresses
     folder : Path, where to write; by default the data folder
     progress : callable of the part that has arrived [%]
-
-    Returns
-    -------
-    (path, whether the file was fetched now)
 
     Raises
     ------

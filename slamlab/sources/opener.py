@@ -21,7 +21,8 @@ LOGS = ReadingLog, CarmenLog, BreezySlamLog, RplidarText  # tried in this order
 
 
 def open(spec, rng=None, carried=False):
-    """Open a source of readings; the format of a file is detected from its content.
+    """Open a source of readings; the format of a file is detected from its content. Returns a
+    Source.
 
     Parameters
     ----------
@@ -30,10 +31,6 @@ def open(spec, rng=None, carried=False):
         ``devices:LIDAR_PORT,EMIR_PORT``, or another prefix of LIDARS; ``emulated:WORLD``
     rng : numpy.random.Generator for simulations; seed 0 by default
     carried : bool, whether the emulated lidar is hand-held in a flat, without a robot
-
-    Returns
-    -------
-    Source
 
     Raises
     ------

@@ -59,13 +59,8 @@ def data_folder():
 def recording(name):
     """Return the path of a recording in the folder that SLAMLAB_DATA names (default: ``data/``).
 
-    Parameters
-    ----------
-    name : str, one of RECORDINGS
-
-    Raises
-    ------
-    SourceError : the name is unknown, or the file is not on this machine
+    name : str, one of RECORDINGS. Raises SourceError if the name is unknown or the file is not on
+    this machine.
     """
     if name not in RECORDINGS:
         raise SourceError(f"there is no recording {name!r}; available: {', '.join(RECORDINGS)}")

@@ -114,7 +114,8 @@ class Simulation(SimulatedRun):
 
 
 def simulation(world_name, rng, lidar=None, robot=None, tour=True):
-    """Create a simulated run: a Simulation, a HandheldLidar, a LandmarkRun or an ArenaRun.
+    """Create a simulated run: a Simulation, a HandheldLidar, a LandmarkRun or an ArenaRun. Raises
+    SourceError if the name is unknown.
 
     Parameters
     ----------
@@ -122,10 +123,6 @@ def simulation(world_name, rng, lidar=None, robot=None, tour=True):
     rng : numpy.random.Generator
     lidar, robot : Scanner, DifferentialDrive; by default those of the world
     tour : bool, whether to follow the route of the world; False: one reading, then ``drive``
-
-    Raises
-    ------
-    SourceError : the name is unknown
     """
     if world_name not in NAMES:
         raise SourceError(f"there is no simulation {world_name!r}; available: {', '.join(NAMES)}")

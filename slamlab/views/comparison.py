@@ -18,7 +18,7 @@ _LINES = [":", "--", "-."]
 
 
 def cloud(samples, covariances, title=None, size=(6, 4.5), layers=(), centre=None):
-    """Draw a scatter plot of samples with 95 % confidence ellipses.
+    """Draw a scatter plot of samples with 95 % confidence ellipses. Returns (Figure, Axes).
 
     Parameters
     ----------
@@ -27,10 +27,6 @@ def cloud(samples, covariances, title=None, size=(6, 4.5), layers=(), centre=Non
     title, size : as in ``axes``
     layers : more layers to draw
     centre : (2,) or longer, of the ellipses [m]; None for the mean of the samples
-
-    Returns
-    -------
-    (Figure, Axes)
     """
     fig, ax = axes(title, size)
     xy = np.asarray(samples, dtype=float)[:, :2]
@@ -46,17 +42,13 @@ def cloud(samples, covariances, title=None, size=(6, 4.5), layers=(), centre=Non
 
 
 def curves(x, ys, xlabel, ylabel, title=None, size=(6, 3.5)):
-    """Draw a line plot of curves with a common x axis and a legend.
+    """Draw a line plot of curves with a common x axis and a legend. Returns (Figure, Axes).
 
     Parameters
     ----------
     x : (n,)
     ys : dict, name for the legend to (n,)
     xlabel, ylabel, title, size : as in ``chart``
-
-    Returns
-    -------
-    (Figure, Axes)
     """
     fig, ax = chart(xlabel, ylabel, title, size)
     if np.asarray(x).dtype.kind in "iu":
@@ -68,16 +60,13 @@ def curves(x, ys, xlabel, ylabel, title=None, size=(6, 3.5)):
 
 
 def against_band(x, ys, limits, xlabel, ylabel, title=None, size=(8, 4)):
-    """Draw curves, such as NEES, on a logarithmic axis with their 95 % band.
+    """Draw curves, such as NEES, on a logarithmic axis with their 95 % band. Returns (Figure,
+    Axes).
 
     Parameters
     ----------
     x, ys, xlabel, ylabel, title, size : as in :func:`curves`
     limits : (low, high) of the band
-
-    Returns
-    -------
-    (Figure, Axes)
     """
     fig, ax = curves(x, ys, xlabel, ylabel, title, size)
     band(ax, *limits, "95 % band")
@@ -89,17 +78,14 @@ def against_band(x, ys, limits, xlabel, ylabel, title=None, size=(8, 4)):
 
 
 def growth(x, measured, predicted, xlabel, ylabel, title=None, size=(6, 4)):
-    """Draw a log-log plot with measurements as markers and predictions as lines.
+    """Draw a log-log plot with measurements as markers and predictions as lines. Returns (Figure,
+    Axes).
 
     Parameters
     ----------
     x : (n,)
     measured, predicted : dict, name for the legend to (n,)
     xlabel, ylabel, title, size : as in ``chart``
-
-    Returns
-    -------
-    (Figure, Axes)
     """
     fig, ax = chart(xlabel, ylabel, title, size)
     ax.set(xscale="log", yscale="log")
@@ -124,17 +110,13 @@ def _labels(x):
 
 
 def shares(rows, xlabel, title=None, size=(7, 3.2)):
-    """Draw a forest plot of proportions with their confidence intervals.
+    """Draw a forest plot of proportions with their confidence intervals. Returns (Figure, Axes).
 
     Parameters
     ----------
     rows : dict, name for the legend to dict, label of a row to (share, low, high); all with equal
         labels
     xlabel, title, size : as in ``chart``
-
-    Returns
-    -------
-    (Figure, Axes)
     """
     fig, ax = chart(xlabel, "", title, size)
     labels = list(next(iter(rows.values())))
@@ -161,7 +143,7 @@ def shares(rows, xlabel, title=None, size=(7, 3.2)):
 
 def strips(rows, limits, span, xlabel, title=None, size=(8, 3.8)):
     """Draw a strip plot on a logarithmic axis with limits: a strip for each group, a dot for each
-    value.
+    value. Returns (Figure, Axes).
 
     Parameters
     ----------
@@ -169,10 +151,6 @@ def strips(rows, limits, span, xlabel, title=None, size=(8, 3.8)):
     limits : dict, name for the legend to a value
     span : (low, high) of the axis
     xlabel, title, size : as in ``chart``
-
-    Returns
-    -------
-    (Figure, Axes)
     """
     fig, ax = chart(xlabel, "", title, size)
     for row, (name, values) in enumerate(rows.values()):

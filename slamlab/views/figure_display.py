@@ -23,13 +23,7 @@ PACKING = {"lossless": True, "method": 2, "quality": 25}  # small, and in 15 ms
 def png(fig):
     """Render a figure as PNG with its final layout; the same figure gives the same bytes.
 
-    Parameters
-    ----------
-    fig : Figure
-
-    Returns
-    -------
-    bytes
+    fig : Figure. Returns bytes.
     """
     return _packed(fig, "PNG")
 
@@ -98,17 +92,14 @@ def bundle(fig, alt, data=None):
 
 
 def show(fig, alt, data=None):
-    """Show a figure in the notebook, with alternative text.
+    """Show a figure in the notebook, with alternative text. Raises ValueError if the alt text is
+    missing or columns differ in length.
 
     Parameters
     ----------
     fig : Figure
     alt : str, description of the figure; its kind and axes are prepended
     data : dict or None, heading to column: a table that can be unfolded
-
-    Raises
-    ------
-    ValueError : the alt text is missing, or columns differ in length
     """
     show_bundle(bundle(fig, alt, data))
 

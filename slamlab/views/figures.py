@@ -16,33 +16,25 @@ def empty(size):
 
 
 def axes(title=None, size=(6, 5)):
-    """Create a map: axes in metres with equal scale.
+    """Create a map: axes in metres with equal scale. Returns (Figure, Axes).
 
     Parameters
     ----------
     title : str or None
     size : (width, height) [80 pixels of the page]
-
-    Returns
-    -------
-    (Figure, Axes)
     """
     fig, (ax,) = panels([title], size)
     return fig, ax
 
 
 def panels(titles, size=(11, 5), shared=True):
-    """Create maps side by side, one for each title.
+    """Create maps side by side, one for each title. Returns (Figure, list of Axes).
 
     Parameters
     ----------
     titles : sequence of str or None
     size : (width, height) of the whole figure [80 pixels]
     shared : bool, whether all show the same region
-
-    Returns
-    -------
-    (Figure, list of Axes)
     """
     fig = empty(size)
     shared = shared and len(titles) > 1
@@ -58,16 +50,12 @@ def panels(titles, size=(11, 5), shared=True):
 
 
 def chart(xlabel, ylabel, title=None, size=(6, 4)):
-    """Create a chart (x–y plot).
+    """Create a chart (x–y plot). Returns (Figure, Axes).
 
     Parameters
     ----------
     xlabel, ylabel : str, with the unit in brackets
     title, size : as in :func:`axes`
-
-    Returns
-    -------
-    (Figure, Axes)
     """
     fig = empty(size)
     ax = fig.subplots()
@@ -81,17 +69,13 @@ def chart(xlabel, ylabel, title=None, size=(6, 4)):
 
 
 def band(ax, low, high, label=None):
-    """Draw a horizontal band in a chart, such as a 95 % interval.
+    """Draw a horizontal band in a chart, such as a 95 % interval. Returns a Patch.
 
     Parameters
     ----------
     ax : Axes
     low, high : float, along y
     label : str or None, for the legend
-
-    Returns
-    -------
-    Patch
     """
     edge = {"edgecolor": COLOURS["limit"], "linestyle": "dashdot", "linewidth": 0.8}
     # the shade may be faint, because the edges are visible

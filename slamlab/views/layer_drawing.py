@@ -24,20 +24,13 @@ ROBOT_ARROW = Path([(1.0, 0.0), (-0.7, 0.65), (-0.4, 0.0), (-0.7, -0.65), (1.0, 
 
 def draw(ax, layer, **style):
     """Draw a layer (points, poses, segments, ellipses, boxes, particles, occupancy grid) on axes.
+    Returns a list of artists. Raises TypeError if it is not a layer.
 
     Parameters
     ----------
     ax : Axes
     layer : of :mod:`slamlab.layers`; its name determines colour, line style and legend entry
     style : as matplotlib's artists take it
-
-    Returns
-    -------
-    list of artists
-
-    Raises
-    ------
-    TypeError : it is not a layer
     """
     usual = colour(layer)
     function, _ = _KINDS[type(layer)]
@@ -59,17 +52,7 @@ def with_level(name):
 def colour(layer):
     """Return the default colour for a layer's name or kind.
 
-    Parameters
-    ----------
-    layer : of :mod:`slamlab.layers`
-
-    Returns
-    -------
-    str, #RRGGBB
-
-    Raises
-    ------
-    TypeError : it is not a layer
+    layer : of :mod:`slamlab.layers`. Returns #RRGGBB. Raises TypeError if it is not a layer.
     """
     if type(layer) not in _KINDS:
         raise TypeError(f"cannot draw {type(layer).__name__}: expected a layer of slamlab.layers")
@@ -78,16 +61,13 @@ def colour(layer):
 
 
 def side_by_side(layers_by_title, size=(11, 5), shared=True):
-    """Draw maps side by side, such as odometry alone and the estimate.
+    """Draw maps side by side, such as odometry alone and the estimate. Returns (Figure, list of
+    Axes).
 
     Parameters
     ----------
     layers_by_title : dict, title to list of layers, or to dict of the legend's entry to layer
     size, shared : as in ``panels``
-
-    Returns
-    -------
-    (Figure, list of Axes)
     """
     fig, all_axes = panels(list(layers_by_title), size, shared)
     for ax, layers in zip(all_axes, layers_by_title.values(), strict=True):
@@ -99,7 +79,7 @@ def side_by_side(layers_by_title, size=(11, 5), shared=True):
 
 
 def overlay(first, second, pairs=None, title=None, size=(5, 3.8)):
-    """Draw two scans with lines between correspondences.
+    """Draw two scans with lines between correspondences. Returns (Figure, Axes).
 
     Parameters
     ----------
@@ -107,10 +87,6 @@ def overlay(first, second, pairs=None, title=None, size=(5, 3.8)):
     second : (n, 2) scan aligned with it [m]
     pairs : (k, 2) int, correspondences: rows of second and of first, or None
     title, size : as in ``axes``
-
-    Returns
-    -------
-    (Figure, Axes)
     """
     fig, ax = axes(title, size)
     if pairs is not None:

@@ -22,16 +22,12 @@ CORNERS = [
 
 
 def legend(ax, **style):
-    """Add a legend with enlarged markers; when shown, it moves off the data.
+    """Add a legend with enlarged markers; when shown, it moves off the data. Returns a Legend.
 
     Parameters
     ----------
     ax : Axes
     style : as matplotlib's legend takes it
-
-    Returns
-    -------
-    Legend
     """
     made = ax.legend(**{"fontsize": MIN_FONT_SIZE} | style)
     # the layout makes room only for a legend beside the axes
@@ -41,16 +37,13 @@ def legend(ax, **style):
 
 
 def legend_below(fig, title=None):
-    """Add one legend below the panels for all of them; it replaces earlier legends there.
+    """Add one legend below the panels for all of them; it replaces earlier legends there. Returns a
+    Legend.
 
     Parameters
     ----------
     fig : Figure with constrained layout
     title : str or None
-
-    Returns
-    -------
-    Legend
     """
     for old in list(fig.legends):
         old.remove()

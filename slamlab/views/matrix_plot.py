@@ -17,6 +17,8 @@ _BLACK_TEXT_ABOVE = 0.5  # above this share a cell is light and its number black
 
 def correlation(rho, names, title=None, ax=None, size=(4.8, 4.2)):
     """Draw a correlation matrix, from −1 (blue) through 0 (white) to 1 (red), with block lines.
+    Returns (Figure, Axes). Raises ValueError if the number of names does not fit, or numbers are
+    not correlations.
 
     Parameters
     ----------
@@ -24,14 +26,6 @@ def correlation(rho, names, title=None, ax=None, size=(4.8, 4.2)):
     names : 1 + N names of blocks: the robot's three rows, then two a landmark
     title, size : as in ``axes``
     ax : Axes to draw in, or None for a new figure
-
-    Returns
-    -------
-    (Figure, Axes)
-
-    Raises
-    ------
-    ValueError : the number of names does not fit, or numbers are not correlations
     """
     rho = np.asarray(rho, dtype=float)
     edges = np.concatenate([[0], 3 + 2 * np.arange(len(names))])
@@ -60,21 +54,14 @@ def correlation(rho, names, title=None, ax=None, size=(4.8, 4.2)):
 
 
 def correlations(rhos, names, size=(11, 4)):
-    """Draw correlation matrices of a growing map side by side, with one colour bar.
+    """Draw correlation matrices of a growing map side by side, with one colour bar. Returns
+    (Figure, list of Axes). Raises ValueError if numbers are not correlations.
 
     Parameters
     ----------
     rhos : dict, title to (3 + 2N, 3 + 2N)
     names : of the blocks of the largest
     size : as in ``panels``
-
-    Returns
-    -------
-    (Figure, list of Axes)
-
-    Raises
-    ------
-    ValueError : numbers are not correlations
     """
     fig, all_axes = panels(list(rhos), size, shared=False)
     for ax, rho in zip(all_axes, rhos.values(), strict=True):
@@ -88,9 +75,7 @@ def correlations(rhos, names, size=(11, 4)):
 def colour_bar(axes):
     """Add a colour bar for correlation matrices.
 
-    Parameters
-    ----------
-    axes : Axes, or a list of them
+    axes : Axes, or a list of them.
     """
     first = np.ravel(axes)[0]
     bar = first.figure.colorbar(first.images[0], ax=axes, shrink=0.8, label="correlation")
@@ -101,6 +86,7 @@ def linked(landmarks, rho, names, marked=0, layers=(), room=None, view=None, siz
     """Draw a map of landmarks and the correlation matrix of [robot, landmarks] on one colour scale.
 
     A landmark's colour shows its mean correlation (x with x, y with y) with the framed landmark.
+    Returns the Figure and its (map, matrix) Axes.
 
     Parameters
     ----------
@@ -112,10 +98,6 @@ def linked(landmarks, rho, names, marked=0, layers=(), room=None, view=None, siz
     room : int or None, number of landmarks that the matrix has room for
     view : (x_min, x_max, y_min, y_max) [m], or None for all
     size : as in ``axes``
-
-    Returns
-    -------
-    Figure, (map, matrix) Axes
     """
     fig, (left, right) = panels([None, None], size, shared=False)
     for ax in (left, right):
@@ -151,21 +133,15 @@ def linked(landmarks, rho, names, marked=0, layers=(), room=None, view=None, siz
 
 
 def cells(tables, x, y, xlabel, ylabel, size=(7, 3)):
-    """Draw heat maps of tables of shares side by side, on one colour scale from 0 to 100 %.
+    """Draw heat maps of tables of shares side by side, on one colour scale from 0 to 100 %. Returns
+    (Figure, list of Axes). Raises ValueError if a table has another shape, or numbers are not
+    shares.
 
     Parameters
     ----------
     tables : dict, title to (len(y), len(x)) shares [1]
     x, y : values at the columns and rows
     xlabel, ylabel, size : as in ``chart``
-
-    Returns
-    -------
-    (Figure, list of Axes)
-
-    Raises
-    ------
-    ValueError : a table has another shape, or numbers are not shares
     """
     fig = empty(size)
     all_axes = fig.subplots(1, len(tables), sharey=True, squeeze=False)[0]

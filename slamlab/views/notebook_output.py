@@ -27,13 +27,7 @@ def show_controls(box, text="Run this cell for its controls."):
 def grouped(value):
     """Group the digits of integers with five or more digits in threes: 10 000.
 
-    Parameters
-    ----------
-    value : int, float or str
-
-    Returns
-    -------
-    str
+    value : int, float or str. Returns a str.
     """
     return _LARGE.sub(lambda found: f"{int(found[0]):,}".replace(",", " "), str(value))
 

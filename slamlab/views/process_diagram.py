@@ -45,17 +45,14 @@ class Box:
 
 
 def process(boxes, flows, size=(11, 5)):
-    """Draw a process diagram; arrows are straight between boxes that face each other.
+    """Draw a process diagram; arrows are straight between boxes that face each other. Returns a
+    Figure.
 
     Parameters
     ----------
     boxes : dict, name to Box
     flows : list of (from, to, text); "=" before a name marks a box that is read and written
     size : as in ``axes``
-
-    Returns
-    -------
-    Figure
     """
     fig = empty(size)
     ax = fig.subplots()

@@ -14,16 +14,13 @@ _SHADES = ("#9AD0F5", "#F5D49A")  # of weights; neighbours differ in lightness a
 
 
 def frames(pose, landmark):
-    """Draw the coordinate frames of world and robot, and a landmark's range and bearing.
+    """Draw the coordinate frames of world and robot, and a landmark's range and bearing. Returns a
+    Figure.
 
     Parameters
     ----------
     pose : (3,) of the robot [m, m, rad]
     landmark : (2,) [m]
-
-    Returns
-    -------
-    Figure
     """
     fig, ax = axes("Frames and angles", size=(7, 5))
     x, y, theta = pose
@@ -70,17 +67,14 @@ def _angle(ax, x, y, radius, start, end, name, colour):
 
 
 def encoder(slots, turned, size=(9, 3.6)):
-    """Draw a wheel's encoder: its disc, and its pulses since the wheel began to turn.
+    """Draw a wheel's encoder: its disc, and its pulses since the wheel began to turn. Returns a
+    Figure.
 
     Parameters
     ----------
     slots : int, ticks of a revolution
     turned : float, rotation from 0 to 2π [rad]
     size : as in ``axes``
-
-    Returns
-    -------
-    Figure
     """
     fig = empty(size)
     disc, pulses = fig.subplots(1, 2, width_ratios=(1, 2))
@@ -115,7 +109,8 @@ def _draw_disc(ax, slots, turned):
 
 
 def bits(data, fields, marked=None, title=None, size=(8, 3.4)):
-    """Draw bytes as rows of bits, most significant bit first, coloured by field.
+    """Draw bytes as rows of bits, most significant bit first, coloured by field. Returns (Figure,
+    Axes).
 
     Parameters
     ----------
@@ -123,10 +118,6 @@ def bits(data, fields, marked=None, title=None, size=(8, 3.4)):
     fields : dict, name for the legend to list of (byte, bit); at most four names
     marked : (byte, bit) to frame, or None
     title, size : as in ``axes``
-
-    Returns
-    -------
-    (Figure, Axes)
     """
     fig = empty(size)
     ax = fig.subplots()
@@ -154,16 +145,13 @@ def bits(data, fields, marked=None, title=None, size=(8, 3.4)):
 
 def wheel(weights, picks, title=None, size=(7, 2.4)):
     """Draw an unrolled resampling wheel: weights end to end on [0, 1], and the sampled positions.
+    Returns (Figure, Axes).
 
     Parameters
     ----------
     weights : (n,) that sum to one
     picks : dict, name of a row to (k,) positions
     title, size : as in ``axes``
-
-    Returns
-    -------
-    (Figure, Axes)
     """
     fig, ax = chart("weights, end to end [1]", None, title, size)
     ax.grid(False)

@@ -13,6 +13,7 @@ def explore(draw, alt, play=None, **controls):
     """Show a figure with sliders, dropdowns and check boxes that redraw it (interactive figure).
 
     A running animation stops. An error after the first drawing is shown in place of the figure.
+    Raises ValueError if a control has another type, or ``play`` does not name a slider.
 
     Parameters
     ----------
@@ -22,10 +23,6 @@ def explore(draw, alt, play=None, **controls):
     controls : by name of draw's argument: ``(low, high, initial)`` for a slider, of integers when
         all are int; a list for a dropdown, whose first entry is initial; a bool for a check box;
         or a widget of ipywidgets
-
-    Raises
-    ------
-    ValueError : a control has another type, or ``play`` does not name a slider
     """
     with needs("notebook"):
         import ipywidgets

@@ -20,6 +20,7 @@ WATCHDOG_TIMEOUT = 2.0  # of the command watchdog: a motion that is not renewed 
 
 class Emir(Closeable):
     """Driver of an eMIR; its thread reads statuses and repeats the last command (keep-alive).
+    Raises PortError, DeviceNotResponding or ConnectionLost.
 
     Parameters
     ----------
@@ -33,10 +34,6 @@ class Emir(Closeable):
     reconnect : bool, whether to reconnect after a lost connection; the robot is then at rest
     opener : callable(port, baud) -> Transport
     clock : Clock
-
-    Raises
-    ------
-    PortError, DeviceNotResponding, ConnectionLost
     """
 
     def __init__(

@@ -94,9 +94,7 @@ def run_emulators(world, rng, tcp=None, lidar=None, emir=None, body=None, clock=
     lidar = dict(lidar or {})
     model = lidar_model(lidar.pop("model", "a2m8"))
     measure = MovingLidar(robot, rng, model.scanner)
-    machines = {
-        LIDAR: RPLidarEmulator(measure, model, rng=damage, **lidar),
-    }
+    machines = {LIDAR: RPLidarEmulator(measure, model, rng=damage, **lidar)}
     if carrier is None:
         machines[EMIR] = EmirEmulator(robot, rng=damage, **(emir or {}))
     if clock is None:

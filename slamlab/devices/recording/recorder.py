@@ -23,6 +23,7 @@ class Recorder(Closeable):
     """Writer of a raw recording; compresses the file on closing if its name ends in .gz.
 
     ``error``: exception that ended the writing, or None; ``received``: number of received bytes.
+    Raises FileExistsError or OSError.
 
     Parameters
     ----------
@@ -30,10 +31,6 @@ class Recorder(Closeable):
     devices : dict by channel, "lidar" or "emir", of properties: port, baud; baud None: the rate of
         the last opening is stored
     clock : Clock of the drivers
-
-    Raises
-    ------
-    FileExistsError, OSError
     """
 
     def __init__(self, path, devices, clock=None):

@@ -94,20 +94,13 @@ def is_recording(content):
 
 
 def load(path, salvage=False):
-    """Load a raw recording, plain or gzip; a truncated file gives all complete records.
+    """Load a raw recording, plain or gzip; a truncated file gives all complete records. Returns a
+    Recording. Raises SourceError or RecordingError.
 
     Parameters
     ----------
     path : str or Path
     salvage : bool, whether to return the records before the first corrupted one
-
-    Returns
-    -------
-    Recording
-
-    Raises
-    ------
-    SourceError, RecordingError
     """
     content, truncated = read_bytes(path)
     compression = f"{path}: the gzip compression is corrupted or truncated" if truncated else ""

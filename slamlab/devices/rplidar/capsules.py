@@ -9,12 +9,7 @@ from operator import xor
 
 import numpy as np
 
-from slamlab.devices.rplidar.measurement_nodes import (
-    NO_NODES,
-    NODE_DTYPE,
-    TURN_Q6,
-    PacketDecoder,
-)
+from slamlab.devices.rplidar.measurement_nodes import NO_NODES, NODE_DTYPE, TURN_Q6, PacketDecoder
 
 QUALITY = 0x2F  # quality of a sample with a distance: capsules carry none
 MAX_STEP_RATIO = 1.3  # of the angles of two successive capsules; beyond it capsules were lost

@@ -32,7 +32,8 @@ class RPLidar(Closeable):
     """Driver of an RPLIDAR; it connects when it is created, and scans after :meth:`start`.
 
     A reader thread fills a bounded queue with the two newest revolutions. When the consumer is too
-    slow, the queue drops the oldest revolution (back-pressure).
+    slow, the queue drops the oldest revolution (back-pressure). Raises PortError,
+    DeviceNotResponding, DeviceFault, ProtocolError or ConnectionLost.
 
     Parameters
     ----------
@@ -45,10 +46,6 @@ class RPLidar(Closeable):
         next revolution has ``after_gap``
     opener : callable(port, baud) -> Transport
     clock : Clock
-
-    Raises
-    ------
-    PortError, DeviceNotResponding, DeviceFault, ProtocolError, ConnectionLost
     """
 
     def __init__(

@@ -131,6 +131,13 @@ class ControlPanel:
         self._saving = asyncio.get_running_loop().create_task(self._write_map(scene))
         return "saving the map"
 
+    async def save_last_map(self):
+        """Write the map at the end of a run, unless it was saved before."""
+        if self._map_file is not None and self._saving is None:
+            self.save_map()
+        if self._saving is not None:
+            await self._saving
+
     async def _write_map(self, scene):
         def write():
             self._map_file.write_bytes(png(still_picture(scene, self.title, SIZE)))

@@ -15,7 +15,8 @@ with needs("notebook"):
 
 
 def edit_world(world, alt, scan=None, dragging=True):
-    """Show a world editor in the notebook: the user drags ends of walls or changes numbers.
+    """Show a world editor in the notebook: the user drags ends of walls or changes numbers. Returns
+    a WorldEditor whose ``world`` follows the edits.
 
     Parameters
     ----------
@@ -23,10 +24,6 @@ def edit_world(world, alt, scan=None, dragging=True):
     alt : str, description of the first figure
     scan : (World) -> (n, 2) points to draw [m], or None
     dragging : bool; False for a text area without the canvas
-
-    Returns
-    -------
-    WorldEditor, whose ``world`` follows the edits
     """
     editor = WorldEditor(world, scan)
     layout = ipywidgets.Layout(width="21em", height="26em")

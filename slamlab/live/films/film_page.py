@@ -15,18 +15,12 @@ MARK = '<meta name="generator" content="slamlab film">'  # identifies a page mad
 def page(path):
     """Create the page of a film; the page plays without a server.
 
-    Parameters
-    ----------
-    path : str or Path
-
-    Returns
-    -------
-    str, HTML
-
     Raises
     ------
     SourceError : the file cannot be read
     FilmError : it is not a film
+
+    path : str or Path. Returns HTML.
     """
     header = check_header(path)
     template = Template((HERE / "film_page.html").read_text(encoding="utf-8"))

@@ -59,18 +59,12 @@ class Film:
 def load(path):
     """Load a film.
 
-    Parameters
-    ----------
-    path : str or Path
-
-    Returns
-    -------
-    Film
-
     Raises
     ------
     SourceError : the file cannot be read
     FilmError
+
+    path : str or Path. Returns a Film.
     """
     check_header(path)
     content, truncated = read_bytes(path)
