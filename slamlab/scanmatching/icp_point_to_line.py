@@ -4,7 +4,7 @@ import numpy as np
 
 from slamlab.geometry import transform, wrap
 from slamlab.scanmatching.centroids import Centroids
-from slamlab.scanmatching.match_result import Iteration, Match, check_clouds, check_limits
+from slamlab.scanmatching.match_result import Iteration, Match, check_arguments
 from slamlab.scanmatching.nearest_neighbours import NearestNeighbours
 from slamlab.scanmatching.normals import normals
 from slamlab.scanmatching.quantiles import median
@@ -36,7 +36,9 @@ def point_to_line(
 
     Each iteration finds correspondences (nearest neighbours inside shrinking gates) and makes a
     Gauss-Newton step on the cost Σ w_i e_i² / c² + δᵀ P⁻¹ δ, with e_i of Equation (13.6), Cauchy's
-    robust kernel w_i, the difference δ from the initial guess, and its covariance P.
+    robust kernel w_i, the difference δ from the initial guess, and its covariance P. Returns a
+    Match whose error is the mean point-to-line distance. Raises ValueError for unusable points or
+    limits.
 
     Parameters
     ----------
@@ -50,25 +52,14 @@ def point_to_line(
     prior_sigmas : (3,) standard deviations of the initial guess [m, m, rad], or None; for clouds
         far from the origin, of the source's centroid
     history : bool, keep an Iteration for the initial guess and each step
-
-    Returns
-    -------
-    Match, its error the mean point-to-line distance
-
-    Raises
-    ------
-    ValueError : unusable points or limits
     """
-    source, target, pose = check_clouds(source, target, initial)
-    check_limits(tolerance, max_iterations, keep)
+    source, target, pose = check_arguments(source, target, initial, tolerance, max_iterations, keep)
     centres = Centroids.of(source, target)
     source, target, pose = source - centres.source, target - centres.target, centres.inward(pose)
     nearest = NearestNeighbours(target)
     n_source, n_target = normals(source), normals(target)
-    start, information = (
-        pose,
-        np.zeros(3) if prior_sigmas is None else 1 / np.asarray(prior_sigmas) ** 2,
-    )
+    start = pose
+    information = np.zeros(3) if prior_sigmas is None else 1 / np.asarray(prior_sigmas) ** 2
     ranges = np.hypot(*source.T)
     reach = min(ranges.max(), MAX_RANGE_FACTOR * median(ranges))
     iterations_kept, width, verdict = [], max(gate), ""

@@ -4,7 +4,7 @@ import numpy as np
 
 from slamlab.geometry import compose, transform
 from slamlab.scanmatching.centroids import Centroids
-from slamlab.scanmatching.match_result import Iteration, Match, check_clouds, check_limits
+from slamlab.scanmatching.match_result import Iteration, Match, check_arguments
 from slamlab.scanmatching.nearest_neighbours import NearestNeighbours
 
 
@@ -14,13 +14,8 @@ def rigid_fit(source, target):
     M = Σ (a_i − ā)(b_i − b̄)ᵀ = U D Vᵀ,  Rot = V diag(1, det V Uᵀ) Uᵀ,  t = b̄ − Rot ā (Tuček §3.1
     steps 2-4). Equations (13.2), (13.11) and (13.13).
 
-    Parameters
-    ----------
-    source, target : (k, 2) corresponding points [m]
-
-    Returns
-    -------
-    (3,) pose of the source's frame in the target's [m, m, rad]
+    source, target : (k, 2) corresponding points [m]. Returns the pose (3,) of the source's frame in
+    the target's [m, m, rad].
     """
     a_mean, b_mean = source.mean(axis=0), target.mean(axis=0)
     M = (source - a_mean).T @ (target - b_mean)
@@ -45,7 +40,8 @@ def point_to_point(
     """Point-to-point ICP repeats nearest-neighbour matching and rigid alignment (Tuček §3.1).
 
     Convergence is tested by the change of the mean distance, as in the thesis' listing, although
-    only the sum of squares is guaranteed not to increase, (13.5).
+    only the sum of squares is guaranteed not to increase, (13.5). Returns a Match. Raises
+    ValueError for unusable points or limits.
 
     Parameters
     ----------
@@ -55,17 +51,8 @@ def point_to_point(
     max_iterations : int
     keep : float, share of the correspondences to fit (trimmed ICP); 1 in the thesis [1]
     history : bool, keep an Iteration for the initial guess and each fit
-
-    Returns
-    -------
-    Match
-
-    Raises
-    ------
-    ValueError : unusable points or limits
     """
-    source, target, pose = check_clouds(source, target, initial)
-    check_limits(tolerance, max_iterations, keep)
+    source, target, pose = check_arguments(source, target, initial, tolerance, max_iterations, keep)
     centres = Centroids.of(source, target)
     source, target, pose = source - centres.source, target - centres.target, centres.inward(pose)
     nearest, kept = NearestNeighbours(target), max(3, round(keep * len(source)))

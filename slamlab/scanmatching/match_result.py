@@ -48,12 +48,6 @@ class Match:
     history: tuple[Iteration, ...] = ()
 
 
-def check_clouds(source, target, initial):
-    """Return two point clouds and an initial guess as float arrays. Raises ValueError."""
-    initial = check_pose(initial)
-    return check_cloud(source, "source"), check_cloud(target, "target"), initial
-
-
 def check_pose(initial):
     """Return the initial guess as a new float array (3,). ValueError: the guess is not finite."""
     initial = np.array(initial, dtype=float)
@@ -81,8 +75,8 @@ def check_cloud(points, name):
     return points
 
 
-def check_limits(tolerance, max_iterations, keep):
-    """Raise ValueError unless tolerance > 0, max_iterations >= 1, and 0 < keep <= 1."""
+def check_arguments(source, target, initial, tolerance, max_iterations, keep):
+    """Return the clouds and the initial guess of an ICP as float arrays. Raises ValueError."""
     if not tolerance > 0:
         raise ValueError(f"tolerance must be above 0 m, got {tolerance}")
     if max_iterations < 1:
@@ -91,3 +85,5 @@ def check_limits(tolerance, max_iterations, keep):
         raise ValueError(
             f"keep must be a share of the correspondences above 0 and at most 1, got {keep}"
         )
+    initial = check_pose(initial)
+    return check_cloud(source, "source"), check_cloud(target, "target"), initial

@@ -66,14 +66,9 @@ class ReadingLog(LogFile):
 
     def _parse_header(self, path, line):
         """Parse name, robot and sensor, and return the common angles of the scans."""
-        try:
-            header = json.loads(line)
-            if header["format"] != FORMAT:
-                raise ValueError
-        except (ValueError, TypeError, KeyError, RecursionError):
-            raise SourceError(
-                f"{path} is not a reading log: its first line is not a header"
-            ) from None
+        if not self.recognises(line):
+            raise SourceError(f"{path} is not a reading log: its first line is not a header")
+        header = json.loads(line)
         if header.get("version") != VERSION:
             found = f"{path} is a reading log of version {header.get('version')!r}"
             raise SourceError(f"{found}; this slamlab reads version {VERSION}")
@@ -117,16 +112,13 @@ class ReadingLog(LogFile):
 
 
 def write(source, path):
-    """Write readings to a reading log and return their number.
+    """Write readings to a reading log and return their number. Raises SourceError if the file
+    cannot be written.
 
     Parameters
     ----------
     source : Source
     path : str or Path; a name that ends in ``.gz`` means compression
-
-    Raises
-    ------
-    SourceError : the file cannot be written
     """
     readings, buffer = iter(source), []
     for reading in readings:

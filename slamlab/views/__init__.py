@@ -21,40 +21,8 @@ from slamlab.views.process_diagram import Box, process
 from slamlab.views.schematics import bits, encoder, frames, wheel
 from slamlab.views.sliders import explore
 
-__all__ = [
-    "COLOURS",
-    "SERIES",
-    "Box",
-    "against_band",
-    "axes",
-    "band",
-    "bits",
-    "boxes",
-    "cells",
-    "chart",
-    "cloud",
-    "colour",
-    "colour_bar",
-    "correlation",
-    "correlations",
-    "curves",
-    "draw",
-    "encoder",
-    "explore",
-    "frames",
-    "grouped",
-    "growth",
-    "legend",
-    "legend_below",
-    "linked",
-    "overlay",
-    "panels",
-    "png",
-    "process",
-    "shares",
-    "show",
-    "side_by_side",
-    "strips",
-    "two_sigma",
-    "wheel",
-]
+__all__ = ["COLOURS", "SERIES", "Box", "against_band", "axes", "band", "bits", "boxes", "cells"]
+__all__ += ["chart", "cloud", "colour", "colour_bar", "correlation", "correlations", "curves"]
+__all__ += ["draw", "encoder", "explore", "frames", "grouped", "growth", "legend", "legend_below"]
+__all__ += ["linked", "overlay", "panels", "png", "process", "shares", "show", "side_by_side"]
+__all__ += ["strips", "two_sigma", "wheel"]

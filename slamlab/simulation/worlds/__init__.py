@@ -18,28 +18,9 @@ from slamlab.simulation.worlds.rooms import (
 from slamlab.simulation.worlds.world import World, box, ring
 from slamlab.simulation.worlds.world_files import load, parse, save, text_of
 
-__all__ = [
-    "WORLDS",
-    "World",
-    "arena",
-    "box",
-    "by_name",
-    "corridor",
-    "flat",
-    "flat_2",
-    "flat_3",
-    "load",
-    "parse",
-    "polygon",
-    "ring",
-    "room",
-    "save",
-    "situation_1",
-    "situation_2",
-    "table_legs",
-    "text_of",
-    "twins",
-]
+__all__ = ["WORLDS", "World", "arena", "box", "by_name", "corridor", "flat", "flat_2", "flat_3"]
+__all__ += ["load", "parse", "polygon", "ring", "room", "save", "situation_1", "situation_2"]
+__all__ += ["table_legs", "text_of", "twins"]
 
 WORLDS = {
     "room": room,
@@ -59,13 +40,7 @@ WORLDS = {
 def by_name(name):
     """Create a predefined World.
 
-    Parameters
-    ----------
-    name : str, a key of WORLDS
-
-    Raises
-    ------
-    ValueError
+    name : str, a key of WORLDS. Raises ValueError.
     """
     if name not in WORLDS:
         raise ValueError(f"there is no world {name!r}; available: {', '.join(WORLDS)}")
