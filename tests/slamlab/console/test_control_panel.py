@@ -167,6 +167,19 @@ def test_the_map_is_saved_and_the_film_holds_the_steps_while_it_was_on(tmp_path)
     assert (tmp_path / "map.png").read_bytes().startswith(b"\x89PNG")
 
 
+def test_the_map_is_saved_at_the_end_unless_it_was_saved_before(tmp_path):
+    async def ended():
+        at = At(map_file=tmp_path / "map.png")
+        await at.panel.save_last_map()
+        first = at.panel.message
+        (tmp_path / "map.png").unlink()
+        await at.panel.save_last_map()
+        return first
+
+    assert "is in map.png" in run(ended())
+    assert not (tmp_path / "map.png").exists()
+
+
 def test_the_naive_track_is_shown_once():
     for estimator, beside in (("walls", 1), ("icp", 0)):
         run_ = At(estimator=estimator).run
