@@ -19,7 +19,7 @@ from slamlab.readings import Trajectory
 from slamlab.simulation import worlds
 from slamlab.sources.base import Source
 from slamlab.sources.emulated_devices import EmulatedDevices
-from tests.slamlab.formats import test_carmen_logs as carmen
+from tests.slamlab.formats import carmen_writing as carmen
 from tests.slamlab.formats import test_rplidar_text as rplidar_text
 from tests.slamlab.formats.room_runs import Drive, ranges
 

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 
 from slamlab import sources
 from slamlab.sources import SourceError
-from tests.slamlab.formats import test_carmen_logs as carmen
+from tests.slamlab.formats import carmen_writing as carmen
 from tests.slamlab.formats import test_rplidar_text as rplidar
 from tests.slamlab.formats.mutations import mutated
 from tests.slamlab.test_other_logs import breezy_lines
