@@ -29,11 +29,11 @@ ONLY_PARSED = {
     r"(check|progress|reset|update)\b": "changes the course's folder; tests/classroom/coursework",
     r"contest submissions\b|.*--log\b": "takes minutes, or needs a recording",
     r"run sim:flat-carried\b": "takes half a minute; tests/slamlab/test_handheld_lidar.py",
-    r".*\bdrive\.bag\b": "needs a ROS bag; tests/slamlab/test_rosbags.py",
+    r".*\bdrive\.bag\b": "needs a ROS bag; tests/slamlab/formats/test_ros_scans.py",
     r"grade (lti|export)\b|.*--(scheduler|db|shard|head)\b": "needs a server or another gradebook",
     r"completion\b": "needs an extra",
     r"collect\b|.*--homes\b": "uses the homes of a hub; tests/classroom/hub",
-    r"data (get|mirror|check)\b": "needs a network; tests/slamlab/test_data_command.py",
+    r"data (get|mirror|check)\b": "needs a network; tests/slamlab/recordings/test_data_command.py",
     r"run intel\b": "needs a recording",
 }
 ROSTER = "id,name,email,section\ns123,Ada L,a@x.org,A\ns124,Alan T,t@x.org,A\n"

@@ -1,0 +1,1 @@
+"""Published recordings: fetched, copied, listed and checked."""
