@@ -1,5 +1,7 @@
 """Displays of a cell that nobody sees: what a notebook would keep of it."""
 
+ALT = "two walls that meet"
+
 
 class Displays:
     """Stands for IPython: remembers what is displayed, each display as it is now.
