@@ -67,7 +67,7 @@ def test_a_comment_at_the_beginning_goes_before_a_statement_and_a_loop_is_no_cap
         MADE: "",
         f"{MADE}\nmade": "",
         f"# one more for each\n{MADE}": "# one more for each",
-        f"total = sum(made)\n{MADE}\nmade": "total = sum(made)",
+        f"total = sum(made)\n{MADE}\nassert made\nprint(total)\nmade": "total = sum(made)",
         f"# all of them\ntotal = sum(made)\n{MADE}": "# all of them",
         "made = {\n}": None,
     }

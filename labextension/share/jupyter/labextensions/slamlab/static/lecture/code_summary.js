@@ -4,7 +4,7 @@ import { questionIn } from "../questions.js";
 
 const SHORT = 6; // lines of code that is not folded
 const SUBJECT = "code"; // tag of a cell whose code is the subject of the slide
-const SHOWS = /^(\w+$|(views|live)\.|ax\.|fig\b|plt\.|display\(|with |for |@|\)|\]|\}|\w+ = \(?f?["'])/; // statements that only show something
+const SHOWS = /^(\w+$|(views|live)\.|ax\.|fig\b|plt\.|(display|print|Markdown)\(|(with|for|if|elif|else|try|except|assert)\b|@|\)|\]|\}|\w+ = \(?f?["'])/; // statements that only show something
 const INCOMPLETE = /[([{,]$|= (\{\}|\[\])$/; // the first line of a statement, or an empty container
 const DRAWS = /^(\w+ = )?(views|live)\./; // the figure is more informative
 const CLOSES = /^[)\]}]/; // the last line of a statement
@@ -28,9 +28,9 @@ const statement = (source) => outerLines(source).findLast((line) => !SHOWS.test(
 // Summary line of folded code: the comment at the beginning, or else such a statement.
 export const summaryLine = (source) => /^# *\S.*/.exec(source)?.[0] ?? statement(source);
 
-// Text shown for folded code. Without such a statement, or if the notebook folds the code, only the output is
+// Text shown for folded code. Without a summary line, or if the notebook folds the code, only the output is
 // shown.
 export function summaryOf({ source, folded, hasOutput }) {
   if (questionIn(source) || (hasOutput && folded)) return "";
-  return (hasOutput ? statement(source) : summaryLine(source) ?? outerLines(source)[0]) ?? "";
+  return summaryLine(source) ?? (hasOutput ? "" : outerLines(source)[0]) ?? "";
 }
