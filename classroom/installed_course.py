@@ -19,12 +19,7 @@ class CourseMissing(ImportError):
 
 @functools.cache
 def package():
-    """Return the name of the course's package.
-
-    Raises
-    ------
-    CourseMissing
-    """
+    """Return the name of the course's package. Raises CourseMissing."""
     found = {point.value for point in metadata.entry_points(group=GROUP)}
     if len(found) != 1:
         named = ", ".join(sorted(found)) or "none"
@@ -42,13 +37,8 @@ def module(name):
 def file(*path):
     """Locate a data file of the course; the file may not exist.
 
-    Parameters
-    ----------
-    path : str, folders and the name of the file, such as "questions", "04.json"
-
-    Returns
-    -------
-    Traversable
+    path : str, folders and the name of the file, such as "questions", "04.json". Returns a
+    Traversable.
     """
     return resources.files(package()).joinpath(*path)
 

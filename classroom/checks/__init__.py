@@ -15,13 +15,8 @@ NOT_RUN = "missing"  # kind of problem in a fresh kernel: earned points stay
 def check(task_id=None):
     """Check a task with the functions defined in the notebook, and print the verdict.
 
-    Parameters
-    ----------
-    task_id : str such as "04-h-robot"
-
-    Returns
-    -------
-    None; under nbgrader the points as a float, which nbgrader reads as the cell's grade
+    task_id : str such as "04-h-robot". Returns None; under nbgrader the points as a float,
+    which nbgrader reads as the cell's grade.
     """
     namespace = sys._getframe(1).f_globals
     points = _check(task_id, namespace)
@@ -32,9 +27,7 @@ def check(task_id=None):
 def hint(task_id=None):
     """Print the next hint for a task: a question, an intermediate result, what the mistake is.
 
-    Parameters
-    ----------
-    task_id : str such as "04-h-robot"
+    task_id : str such as "04-h-robot".
     """
     if "NBGRADER_EXECUTION" in os.environ:  # a grader needs no hint
         return
@@ -62,7 +55,7 @@ def hint(task_id=None):
 
 
 def ask(id, text=None, choices=None, right=None, *, tolerance=None, unit="", reason="", wrong=None):
-    """Ask a multiple-choice or numeric question; the answer is not graded.
+    """Ask a multiple-choice or numeric question; the answer is not graded. Raises ValueError.
 
     Parameters
     ----------
@@ -74,10 +67,6 @@ def ask(id, text=None, choices=None, right=None, *, tolerance=None, unit="", rea
     tolerance : float, largest accepted error of the number
     unit, reason : str, for the right number
     wrong : dict or None, wrong number to the reason why it is wrong
-
-    Raises
-    ------
-    ValueError
     """
     if "NBGRADER_EXECUTION" in os.environ:  # nobody can answer
         return
@@ -94,13 +83,8 @@ def ask(id, text=None, choices=None, right=None, *, tolerance=None, unit="", rea
 def answers(ids):
     """Return the right answers to questions of the course, with their reasons, for the lecturer.
 
-    Parameters
-    ----------
-    ids : list of str such as "04-leaning"
-
-    Returns
-    -------
-    dict : id to text, without questions that are stored nowhere
+    ids : list of str such as "04-leaning". Returns a dict, id to text, without questions that are
+    stored nowhere.
     """
     from classroom.checks import question_files, question_widgets
 
@@ -141,13 +125,8 @@ def validate():
 def attempt(function):
     """Call a function (or decorate it), and print a report if it fails or a task is unsolved.
 
-    Parameters
-    ----------
-    function : callable without arguments
-
-    Returns
-    -------
-    the function's return value, or None if it failed
+    function : callable without arguments. Returns the function's return value, or None if it
+    failed.
     """
     try:
         return function()

@@ -6,17 +6,13 @@ UNANSWERED = "Replace the dots ... by your expression and run this cell again."
 
 
 def describe_difference(yours, expected, tolerance):
-    """Describe how a reader's value differs from the expected value.
+    """Describe in a sentence how a reader's value differs from the expected value, which it omits.
 
     Parameters
     ----------
     yours : number, array, or sympy expression or matrix; ``...`` if it is unanswered
     expected : the same kind of value
     tolerance : float, largest accepted difference of an entry, relative to the largest entry
-
-    Returns
-    -------
-    str, one sentence; it does not contain the expected value
     """
     if yours is ...:
         return UNANSWERED

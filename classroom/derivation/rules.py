@@ -6,31 +6,24 @@ from classroom.derivation.random_points import Symmetric
 
 
 def symmetric(name, size):
-    """Make the symbol of a symmetric, positive definite matrix, such as a covariance.
+    """Make the symbol of a symmetric, positive definite matrix, such as a covariance. Returns a
+    MatrixSymbol (size, size).
 
     Parameters
     ----------
     name : str
     size : int, number of rows
-
-    Returns
-    -------
-    MatrixSymbol (size, size)
     """
     return Symmetric(name, size, size)
 
 
 def partials(f, by):
-    """Return the Jacobian ∂f/∂x of unevaluated partial derivatives.
+    """Return the Jacobian ∂f/∂x, a Matrix (m, n) of unevaluated partial derivatives.
 
     Parameters
     ----------
     f : sympy column (m, 1)
     by : list of n symbols
-
-    Returns
-    -------
-    Matrix (m, n) of Derivative
     """
     return sp.Matrix([[sp.Derivative(row, symbol) for symbol in by] for row in f])
 
@@ -38,13 +31,8 @@ def partials(f, by):
 def differentiate(*by):
     """Return a rule that evaluates derivatives with respect to symbols.
 
-    Parameters
-    ----------
-    by : symbols; without any, all derivatives are evaluated
-
-    Returns
-    -------
-    function of a line -> the next line
+    by : symbols; without any, all derivatives are evaluated. Returns a function of a
+    line -> the next line.
     """
 
     def evaluated(derivative):
@@ -57,13 +45,7 @@ def differentiate(*by):
 def blockwise(line):
     """Rule that evaluates products of block matrices.
 
-    Parameters
-    ----------
-    line : matrix expression of BlockMatrix
-
-    Returns
-    -------
-    BlockMatrix, or its only block
+    line : matrix expression of BlockMatrix. Returns a BlockMatrix, or its only block.
     """
     return sp.block_collapse(line)
 
@@ -72,14 +54,12 @@ def expectation(covariances):
     """Return a rule that replaces products of zero-mean random columns with their expected value
     E[·].
 
-    Parameters
-    ----------
-    covariances : dict, product such as ``q * q.T`` to its covariance; others are uncorrelated
-
     Returns
     -------
     function of a sum of products of a random column and a transposed one, to its expected value;
     ValueError
+
+    covariances : dict, product such as ``q * q.T`` to its covariance; others are uncorrelated.
     """
     random = {factor for pair in covariances for factor in pair.args if factor.is_symbol}
 

@@ -92,21 +92,13 @@ class Derivation:
 
 
 def derive(name, start, why="by definition"):
-    """Begin a derivation.
+    """Begin a derivation. Returns a Derivation. Raises TypeError.
 
     Parameters
     ----------
     name : str, of the derived quantity, such as ``"J_xr"``
     start : sympy scalar, matrix or matrix expression
     why : str, its origin
-
-    Returns
-    -------
-    Derivation
-
-    Raises
-    ------
-    TypeError
     """
     if not isinstance(start, sp.Basic | sp.MatrixBase):
         raise TypeError(f"a derivation must start from a SymPy formula, not from {start!r}")

@@ -18,7 +18,8 @@ MAX_NOTEBOOK_BYTES = 20 << 20  # as the grader accepts
 
 
 def collect(students, users: Path, exercise: str, out: Path):
-    """Copy each student's notebook of an exercise, and return messages about the others.
+    """Copy each student's notebook of an exercise, and return (int, int, list of str): new or
+    changed notebooks, unchanged ones, and messages about the others.
 
     Parameters
     ----------
@@ -26,10 +27,6 @@ def collect(students, users: Path, exercise: str, out: Path):
     users : Path, the folder of all homes, such as /home
     exercise : str, such as "04"
     out : Path, for ``STUDENT/exNN_….ipynb``
-
-    Returns
-    -------
-    tuple of (int, int, list of str) : new or changed notebooks, unchanged ones, messages
     """
     path = PurePosixPath(FOLDER, "exercises", catalogue.exercise(exercise).file)
     handed_out = originals.original(INSTALLATION, f"exercises/{path.name}")
