@@ -149,18 +149,27 @@ def values_of(widget, most):
     Returns
     -------
     (list, list of str)
+
+    Raises
+    ------
+    ValueError : the control has no list or range of single values, such as a field for text
     """
-    if hasattr(widget, "options"):
-        pairs = [each if isinstance(each, tuple) else (str(each), each) for each in widget.options]
+    if hasattr(widget, "index") and not isinstance(widget.index, tuple):
+        # as ipywidgets reads them: pairs, a mapping, or values alone
+        pairs = list(zip(widget._options_labels, widget._options_values, strict=True))
         if hasattr(widget, "continuous_update"):
             pairs = _thinned(pairs, most, lambda pair: pair[1] == widget.value)
-        return [value for _, value in pairs], [str(word) for word, _ in pairs]
+        return [value for _, value in pairs], [word for word, _ in pairs]
     if isinstance(widget.value, bool):
         return [False, True], ["no", "yes"]
+    if not hasattr(widget, "readout_format") or isinstance(widget.value, tuple):
+        raise ValueError(f"a {type(widget).__name__} has no list of values to draw")
     count = round((widget.max - widget.min) / widget.step) + 1 if widget.step else 1
     values = [widget.min + n * widget.step for n in range(count)]
+    if hasattr(widget, "base"):  # whose bounds and steps are exponents
+        values = [widget.base**value for value in values]
     if isinstance(widget.value, float):
-        values = [float(np.round(value, 12)) for value in values]
+        values = [float(format(value, ".12g")) for value in values]
     nearest = min(values, key=lambda value: abs(value - widget.value))
     values[values.index(nearest)] = widget.value
     values = _thinned(values, most, lambda value: value == widget.value)

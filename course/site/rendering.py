@@ -10,6 +10,7 @@ import os
 import shutil
 import subprocess
 import sys
+import traceback
 from pathlib import Path
 
 import nbformat
@@ -24,7 +25,7 @@ RESULTS = "rendered.json"  # renderings by the cell's id
 
 
 class RenderingError(Exception):
-    """A lesson cannot be run; the message names the lesson and the cause."""
+    """A lesson cannot be run; the message names the lesson, the cell, the line and the cause."""
 
 
 def moving(notebook):
@@ -106,10 +107,21 @@ def main(path, folder):
     shell, renderer = InteractiveShell.instance(), Renderer(Path(folder))
     views.explore, live.watch = renderer.explore, renderer.live
     views.show = lambda *_, **__: None  # still pictures are stored already
-    for cell in moving(nbformat.read(path, as_version=4)):
+    for number, cell in enumerate(moving(nbformat.read(path, as_version=4)), start=1):
         renderer.cell = cell.id
-        shell.run_cell(cell.source).raise_error()
+        done = shell.run_cell(cell.source)
+        if error := done.error_before_exec or done.error_in_exec:
+            sys.exit(_place(error, f"code cell {number} ({cell.id})", cell.source.splitlines()))
     (Path(folder) / RESULTS).write_text(json.dumps(renderer.rendered), encoding="utf-8")
+
+
+def _place(error, cell, lines):
+    """Return the traceback of a cell's error, and the cell, the line and the error."""
+    frames = traceback.extract_tb(error.__traceback__)
+    in_cells = [each.lineno for each in frames if each.filename.startswith("<ipython-input")]
+    line = in_cells[0] if in_cells else error.lineno  # of a SyntaxError
+    told = "".join(traceback.format_exception(error))
+    return f"{told}{cell}, line {line}: {lines[line - 1].strip()}"
 
 
 if __name__ == "__main__":

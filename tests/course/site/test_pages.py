@@ -3,7 +3,9 @@
 import operator
 import re
 from functools import partial
+from types import MappingProxyType
 
+import ipywidgets
 import nbformat
 import numpy as np
 import pytest
@@ -152,6 +154,54 @@ def test_a_slider_is_thinned_evenly_and_keeps_its_first_value():
     assert values_of(_control("a", True), 21) == ([False, True], ["no", "yes"])
 
 
+PAIRS = [("one", 1), ("two", (2, 2)), ("three", "x")]
+SELECTIONS = "Dropdown", "RadioButtons", "Select", "SelectionSlider", "ToggleButtons"
+
+
+@pytest.mark.parametrize("name", SELECTIONS)
+@pytest.mark.parametrize(
+    "options, expected",
+    [
+        (PAIRS, PAIRS),
+        (tuple(map(list, PAIRS)), PAIRS),
+        (dict(PAIRS), PAIRS),
+        (MappingProxyType(dict(PAIRS)), PAIRS),
+        (dict(PAIRS).items(), PAIRS),
+        ([7, "x", 0.5], [("7", 7), ("x", "x"), ("0.5", 0.5)]),
+        (range(2), [("0", 0), ("1", 1)]),
+        ({"x"}, [("x", "x")]),
+        ([(1, 2, 3), True], [("(1, 2, 3)", (1, 2, 3)), ("True", True)]),
+    ],
+)
+def test_the_values_of_a_choice_are_those_that_ipywidgets_offers(name, options, expected):
+    widget = getattr(ipywidgets, name)(options=options)
+    values, words = values_of(widget, 21)
+    assert list(zip(words, values, strict=True)) == expected
+    for widget.label, value in expected:  # as a reader chooses it
+        assert widget.value == value
+
+
+@pytest.mark.parametrize(
+    "widget, expected",
+    [
+        (ipywidgets.ToggleButton(True), ([False, True], ["no", "yes"])),
+        (ipywidgets.IntSlider(3, 1, 5, 2), ([1, 3, 5], ["1", "3", "5"])),
+        (ipywidgets.FloatLogSlider(10, min=-1, max=1, step=1), ([0.1, 1, 10], ["0.1", "1", "10"])),
+        (ipywidgets.SelectionSlider(options=range(9), value=4), ([0, 4, 8], ["0", "4", "8"])),
+    ],
+)
+def test_a_widget_of_a_lesson_is_drawn_at_its_own_values(widget, expected):
+    values, words = values_of(widget, 3)
+    assert (values, [word.strip() for word in words]) == expected
+
+
+@pytest.mark.parametrize("name", ["Text", "IntRangeSlider", "SelectMultiple", "BoundedIntText"])
+def test_a_control_without_single_values_is_refused_by_its_name(name):
+    options = {"options": ["a", "b"]} if name == "SelectMultiple" else {}
+    with pytest.raises(ValueError, match=f"a {name} has no list of values"):
+        values_of(getattr(ipywidgets, name)(**options), 21)
+
+
 MOVING = """\
 import ipywidgets, numpy as np
 from functools import partial
@@ -193,10 +243,12 @@ def test_what_moves_is_rendered_once_and_stands_on_the_page(tmp_path):
     assert "the view runs live" in live.outputs[-1].data["text/html"]
     assert not any("still picture" in output.data["text/html"] for output in sliders.outputs)
     assert list(films_alone(reported)) == [notebook.cells[3].id]
-    notebook.cells[2].source += "\n1 / 0"
-    nbformat.write(notebook, path)
-    with pytest.raises(rendering.RenderingError, match="ZeroDivisionError"):
-        rendering.rendered(path, tmp_path / "cache")
+    for wrong, place in {"\n1 / 0": "line 6: 1 / 0", "\n1 +": r"line 6: 1 \+"}.items():
+        cell = notebook.cells[2]
+        cell.source = DRAWN + wrong
+        nbformat.write(notebook, path)
+        with pytest.raises(rendering.RenderingError, match=rf"code cell 2 \({cell.id}\), {place}"):
+            rendering.rendered(path, tmp_path / "cache")
 
 
 def test_lessons_go_on_with_a_film_as_with_a_live_view(tmp_path):
