@@ -1,8 +1,4 @@
-"""Trajectory files of other programs: read rightly, or refused with format, line and remedy."""
-
-import gzip
-import tracemalloc
-import warnings
+"""Trajectory files of the world: read with their columns, units and times."""
 
 import numpy as np
 import pytest
@@ -10,106 +6,30 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from slamlab.evaluation import absolute_error, load_trajectory, save_tum
-from slamlab.files import SourceError
 from slamlab.readings import Trajectory
 from tests.property_testing import assert_same_pose
-from tests.slamlab.formats.mutations import mutated
-
-COUNT = 40
-TIMES = 0.1 * np.arange(COUNT) + 3.0
-THETA = np.linspace(0.3, 4.5, COUNT)  # past half a turn
-X, Y = np.cumsum(0.1 * np.cos(THETA)), np.cumsum(0.1 * np.sin(THETA))
-TRUTH = Trajectory(TIMES, np.column_stack([X, Y, THETA]))
-EPOCH = 1_403_636_579
-S, C, O = np.sin(THETA / 2), np.cos(THETA / 2), np.zeros(COUNT)
-TUM = (TIMES, X, Y, O, O, O, S, C)
-EUROC = "#timestamp [ns], p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], " + (
-    "q_RS_y [], q_RS_z [], v_RS_R_x [m s^-1], b_w_RS_S_x [rad s^-1]\n"
+from tests.slamlab.formats.trajectory_writing import (
+    CAMERA,
+    COUNT,
+    EPOCH,
+    HEADED,
+    SEPARATED,
+    THETA,
+    TIMES,
+    TRUTH,
+    TUM,
+    C,
+    O,
+    S,
+    X,
+    Y,
+    assert_is_the_truth,
+    kitti,
+    matrices,
+    nanoseconds,
+    read,
+    table,
 )
-ROSTOPIC = "%time,field.header.seq,field.header.stamp,field.header.frame_id," + ",".join(
-    [f"field.pose.pose.position.{axis}" for axis in "xyz"]
-    + [f"field.pose.pose.orientation.{axis}" for axis in "xyzw"]
-    + ["field.twist.twist.linear.x"]
-)
-CAMERA = np.array([[0, 0, 1], [-1, 0, 0], [0, -1, 0]])  # its axes in those of a robot
-
-
-def table(columns, separator=" ", end="\n", number=repr):
-    """Rows of numbers, of words or of both."""
-    rows = zip(
-        *(c if isinstance(c, list) else np.asarray(c).tolist() for c in columns), strict=True
-    )
-    return "".join(
-        separator.join(v if isinstance(v, str) else number(v) for v in row) + end for row in rows
-    )
-
-
-def with_decimal_comma(value):
-    return repr(value).replace(".", ",")
-
-
-def nanoseconds(epoch):
-    return [str(epoch * 10**9 + round(t * 1e9)) for t in TIMES]
-
-
-def matrices(axes=None, scale=1.0):
-    """The poses as 3 × 4 matrices, of a robot or of a camera."""
-    axes = np.eye(3) if axes is None else axes
-    for x, y, theta in TRUTH.poses:
-        c, s = np.cos(theta), np.sin(theta)
-        R = axes.T @ np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]) @ axes
-        yield np.column_stack([scale * R, axes.T @ [x, y, 0]]).ravel()
-
-
-def kitti(axes=None, scale=1.0):
-    return table(np.array(list(matrices(axes, scale))).T)
-
-
-def read(tmp_path, content, name="trajectory"):
-    """Read the trajectory of a file, and its warnings."""
-    path = tmp_path / name
-    path.write_bytes(content if isinstance(content, bytes) else content.encode())
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
-        found = load_trajectory(path)
-    return found, " ".join(str(one.message) for one in caught)
-
-
-def assert_is_the_truth(found, offset=0.0):
-    np.testing.assert_allclose(found.times, TIMES + offset, rtol=0, atol=1e-6)
-    assert_same_pose(found.poses, TRUTH.poses, 1e-9)
-
-
-HEADED = {
-    "tum": "# timestamp tx ty tz qx qy qz qw\n" + table(TUM),
-    "tum without #": "timestamp,tx,ty,tz,qx,qy,qz,qw\n" + table(TUM, ","),
-    "several comments": "# ground truth\n# file: 'a, b.bag'\n# timestamp tx ty\n" + table(TUM),
-    "comments within": table(TUM).replace("\n3.5", "\n# half\n\n3.5"),
-    "comments of other programs": "// by a mapper\n" + table(TUM, ", "),
-    "a unit in a row of its own": "time,x,y,z,qx,qy,qz,qw\ns,m,m,m,,,,\n" + table(TUM, ","),
-    "quaternion first": "#timestamp,qx,qy,qz,qw,px,py,pz\n"
-    + table((TIMES, O, O, S, C, X, Y, O), ","),
-    "w first": "t x y z qw qx qy qz\n" + table((TIMES, X, Y, O, C, O, O, S)),
-    "a counter first": "num,t,x,y,z,qx,qy,qz,qw\n" + table((np.arange(COUNT), *TUM), ","),
-    "seconds and nanoseconds": "#sec,nsec,x,y,z,qx,qy,qz,qw\n"
-    + table((np.floor(TIMES), np.round(TIMES % 1 * 1e9), *TUM[1:]), ","),
-    "planar": "time,x,y,theta,naive_x,naive_y,naive_theta\n"
-    + table((TIMES, X, Y, THETA, O, O, O), ","),
-    "degrees and millimetres": "time [s];x [mm];y [mm];yaw [deg]\n"
-    + table((TIMES, 1e3 * X, 1e3 * Y, np.degrees(THETA)), ";"),
-    "units as suffixes": "time_ms x_cm y_cm heading_deg\n"
-    + table((1e3 * TIMES, 1e2 * X, 1e2 * Y, np.degrees(THETA))),
-    "roll, pitch, yaw": "# timestamp x y z roll pitch yaw\n" + table((TIMES, X, Y, O, O, O, THETA)),
-    "rostopic": ROSTOPIC
-    + "\n"
-    + table(
-        (nanoseconds(5), np.arange(COUNT), nanoseconds(0), ["odom"] * COUNT, *TUM[1:], O + 9), ","
-    ),
-    "pandas": ",time,x,y,theta\n" + table((np.arange(COUNT), TIMES, X, Y, THETA), ","),
-    "quoted": '"time","x","y","theta"\n'
-    + table([[f'"{v!r}"' for v in column.tolist()] for column in (TIMES, X, Y, THETA)], ","),
-    "euroc": EUROC + table((nanoseconds(0), X, Y, O, C, O, O, S, O + 5, O + 5), ","),
-}
 
 
 @pytest.mark.parametrize("text", HEADED.values(), ids=HEADED)
@@ -117,19 +37,6 @@ def test_a_header_names_the_columns_and_their_units(tmp_path, text):
     found, reported = read(tmp_path, text)
     assert_is_the_truth(found)
     assert not reported
-
-
-SEPARATED = {
-    "blanks": table(TUM),
-    "tabs": table(TUM, "\t"),
-    "commas": table(TUM, ","),
-    "semicolons": table(TUM, ";"),
-    "decimal commas between semicolons": table(TUM, ";", number=with_decimal_comma),
-    "a separator at the end": table(TUM, ",", end=",\n"),
-    "a blank at the end": table(TUM, end=" \n"),
-    "CRLF": table(TUM, end="\r\n"),
-    "exponents": table(TUM, number="{:.17e}".format),
-}
 
 
 @pytest.mark.parametrize("text", SEPARATED.values(), ids=SEPARATED)
@@ -225,132 +132,6 @@ def test_what_leaves_the_plane_is_projected_and_reported(tmp_path):
 @pytest.mark.parametrize("length", [0.6, 1.9])
 def test_quaternions_are_normalised(tmp_path, length):
     assert_is_the_truth(read(tmp_path, table((*TUM[:6], length * S, -length * -C)))[0])
-
-
-LINES = table(TUM).splitlines(keepends=True)
-DAMAGED = {
-    "tracking lost, as NaN": (
-        "9 nan nan nan nan nan nan nan\n",
-        "not finite: 1 (first in line 11)",
-    ),
-    "tracking lost, as no quaternion": ("9 1 1 0 0 0 0 0\n", "length 0: 1 (first in line 11)"),
-    "too few numbers": ("9 1 1\n", "not poses: 1 (first in line 11)"),
-    "words": ("9 1 1 0 0 0 0 one\n", "not poses: 1"),
-    "MSVC's NaN": ("9 -nan(ind) 1 0 0 0 0 1\n", "not poses: 1"),
-    "a quaternion of length 5": ("9 1 1 0 0 0 3 4\n", "not of length 1: 1"),
-}
-
-
-@pytest.mark.parametrize(("line", "message"), DAMAGED.values(), ids=DAMAGED)
-def test_one_damaged_row_costs_that_row_and_is_reported(tmp_path, line, message):
-    found, text = read(tmp_path, "".join([*LINES[:10], line, *LINES[10:]]))
-    assert_is_the_truth(found)
-    assert "read as TUM: skipped " in text and message in text
-
-
-def test_where_most_of_the_trajectory_was_not_tracked_the_rest_is_read(tmp_path):
-    lost = "".join(f"{t} nan nan nan nan nan nan nan\n" for t in range(100, 300))
-    assert_is_the_truth(read(tmp_path, "".join([*LINES, lost]))[0])
-
-
-def test_a_compressed_file_that_is_cut_short_is_read_so_far(tmp_path):
-    torn = gzip.compress(table(TUM).encode())[:-200]
-    found, reported = read(tmp_path, torn)
-    assert 0 < len(found) < COUNT and "file truncated" in reported
-    assert_same_pose(found.poses, TRUTH.poses[: len(found)])
-
-
-UNREADABLE = {
-    "repeated": (
-        "".join([*LINES[:3], *LINES[2:]]),
-        "TUM, line 4: its timestamp repeats that of line 3",
-    ),
-    "two in one": (
-        "".join(LINES * 2),
-        "line 41: its timestamp is before that of line 40: sort the rows",
-    ),
-    "few digits": (
-        table((TIMES + EPOCH, *TUM[1:]), number="{:g}".format),
-        "line 2: its timestamp repeats that of line 1.*more digits",
-    ),
-    "columns in another order": (table((TIMES, S, C, O, O, X, Y, THETA)), "TUM.*not of length 1"),
-    "no trajectory": (table((TIMES, X, Y, THETA)), "4 numbers in a row.*name.*first line"),
-    "positions alone": ("time,x,y\n" + table((TIMES, X, Y), ","), "line 1.*names of 3 columns"),
-    "unknown names": ("a b c d e f g h\n" + table(TUM), "line 1, .*a, b, c.*begin comments with #"),
-    "degrees": (
-        "time,x,y,theta\n" + table((TIMES, X, Y, np.degrees(THETA)), ","),
-        "up to 257.8 match the path in degrees, not in radians; name their unit.*deg",
-    ),
-    "TUM with w first": (table((TIMES, X, Y, O, C, O, O, S)), "TUM: .* tilted, .*qw is the first"),
-    "EuRoC with w last": (
-        table((nanoseconds(EPOCH), *TUM[1:]), ","),
-        "EuRoC: .* tilted, .*qw is the last of the four numbers: name the columns",
-    ),
-    "no rotations": (kitti(scale=3.0), "KITTI: 0 usable poses; matrices that are not rotations"),
-    "KITTI with a damaged row": (kitti() + "1 2 3\n", "not poses: 1 .first in line 41.*correct"),
-    "decimal commas between blanks": (table(TUM, number=with_decimal_comma), "in a row"),
-    "values left out": (table([[""] * COUNT, *TUM], ","), "contains no pose"),
-    "text": ("a trajectory\nof nothing\n", "contains no pose: a row of TUM has 8"),
-    "binary": (bytes(range(256)) * 40, "contains no pose"),
-}
-
-
-@pytest.mark.parametrize(("content", "message"), UNREADABLE.values(), ids=UNREADABLE)
-def test_an_invalid_trajectory_is_refused_with_format_line_and_remedy(tmp_path, content, message):
-    with pytest.raises(SourceError, match=message):
-        read(tmp_path, content)
-
-
-def test_empty_fields_do_not_shift_the_columns(tmp_path):
-    with pytest.raises(SourceError, match="rows that are not poses: 20"):
-        read(tmp_path, table((TIMES, X, Y, ["0", ""] * (COUNT // 2), O, O, S, C), ","))
-
-
-@pytest.mark.parametrize("count", [COUNT - 1, COUNT + 1])
-def test_times_beside_kitti_that_are_not_as_many_are_refused(tmp_path, count):
-    (tmp_path / "times.txt").write_text(table((np.arange(float(count)),)))
-    with pytest.raises(SourceError, match=f"times.txt has {count} times.* 40 poses"):
-        read(tmp_path, kitti())
-
-
-VALID = [
-    text.encode()
-    for text in (*HEADED.values(), *SEPARATED.values(), kitti(CAMERA), EUROC + table(TUM, ","))
-]
-SCRAPS = [
-    *b"# , ; \t \n \r _ [ - \0".split(b" "),
-    *(b"nan", b"1e308", b"-1e999", b"1,5", b"[ns]", b"time,x,y,theta", b"\xff\xfe"),
-]
-
-
-@given(st.sampled_from(VALID).flatmap(lambda valid: mutated(valid, SCRAPS)))
-def test_a_mutated_file_raises_nothing_but_a_source_error(tmp_path_factory, content):
-    path = tmp_path_factory.mktemp("mutated") / "trajectory"
-    path.write_bytes(content)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        try:
-            found = load_trajectory(path)
-        except SourceError as error:
-            assert "array" not in str(error)
-            return
-    assert len(found.times) == len(found.poses) > 0
-    assert np.isfinite(found.times).all() and (np.diff(found.times) > 0).all()
-    assert np.isfinite(found.poses).all()
-
-
-def test_memory_is_bounded_by_a_multiple_of_the_file(tmp_path):
-    count = 20_000
-    rows = np.zeros((count, 8))
-    rows[:, 0], rows[:, 7] = np.arange(count), 1
-    path = tmp_path / "long"
-    path.write_text(table(rows.T))
-    tracemalloc.start()
-    try:
-        load_trajectory(path)
-        assert tracemalloc.get_traced_memory()[1] < 12 * path.stat().st_size + 4e6
-    finally:
-        tracemalloc.stop()
 
 
 @given(st.lists(st.floats(0, 4e9), min_size=1, max_size=8, unique=True).map(sorted), st.data())
