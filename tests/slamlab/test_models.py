@@ -1,4 +1,4 @@
-"""Models and their Jacobians: round trips, finite differences, agreement with the group."""
+"""Models: round trips, agreement with the group; test_symbolic has their Jacobians."""
 
 import numpy as np
 import pytest
@@ -11,7 +11,6 @@ from slamlab.models import jacobians
 from tests.property_testing import (
     assert_same_pose,
     bases,
-    finite_differences,
     observation_vectors,
     odometry_controls,
     periods,
@@ -20,14 +19,6 @@ from tests.property_testing import (
     same_angle,
     steered_controls,
 )
-
-POSE_ROWS = np.array([False, False, True])
-OBSERVATION_ROWS = np.array([False, True])
-NO_ANGLE = np.array([False, False])
-
-
-def close(actual, expected):
-    np.testing.assert_allclose(actual, expected, rtol=1e-6, atol=1e-6)
 
 
 @given(poses, observation_vectors)
@@ -70,39 +61,6 @@ def test_steering_is_composing_with_the_motion_in_the_robots_frame(x, u, B, T):
     assert_same_pose(models.f_steered(x, u, B, T), compose(x, np.array(motion)))
 
 
-@given(poses, odometry_controls)
-def test_A_and_W_of_odometry_are_the_derivatives_of_f(x, u):
-    f = models.f_odometry
-    A = finite_differences(lambda x: f(x, u), x, POSE_ROWS)
-    W = finite_differences(lambda u: f(x, u), u, POSE_ROWS)
-    close(jacobians.A_odometry(x, u), A)
-    close(jacobians.W_odometry(x, u), W)
-
-
-@given(poses, steered_controls, bases, periods)
-def test_A_and_W_of_steering_are_the_derivatives_of_f(x, u, B, T):
-    f = models.f_steered
-    A = finite_differences(lambda x: f(x, u, B, T), x, POSE_ROWS)
-    W = finite_differences(lambda u: f(x, u, B, T), u, POSE_ROWS)
-    close(jacobians.A_steered(x, u, B, T), A)
-    close(jacobians.W_steered(x, u, B, T), W)
-
-
-@given(poses, points)
-def test_H_is_the_derivative_of_h_by_pose_and_by_landmark(x, p):
-    assume(np.hypot(*(p - x[:2])) > 0.3)
-    robot = finite_differences(lambda x: models.h(x, p), x, OBSERVATION_ROWS)
-    landmark = finite_differences(lambda p: models.h(x, p), p, OBSERVATION_ROWS)
-    close(jacobians.H_robot(x, p), robot)
-    close(jacobians.H_landmark(x, p), landmark)
-
-
-@given(poses, observation_vectors)
-def test_J_is_the_derivative_of_g_by_pose_and_by_observation(x, z):
-    close(jacobians.J_xr(x, z), finite_differences(lambda x: models.g(x, z), x, NO_ANGLE))
-    close(jacobians.J_z(x, z), finite_differences(lambda z: models.g(x, z), z, NO_ANGLE))
-
-
 @given(poses, observation_vectors)
 def test_the_line_put_where_it_was_seen_is_seen_there_again(x, z):
     rho, alpha = models.h_line(x, models.g_line(x, z))
@@ -117,19 +75,6 @@ def test_a_points_distance_to_a_line_is_the_same_from_every_frame(x, line, point
     rho, alpha = models.h_line(x, line)
     inside = transform(inverse(x), point[None])[0] @ [np.cos(alpha), np.sin(alpha)] - rho
     assert abs(outside - inside) < 1e-9
-
-
-@given(poses, observation_vectors)
-def test_the_jacobians_of_lines_are_the_derivatives_of_their_models(x, line):
-    angular = np.array([False, True])
-    pairs = [
-        (jacobians.H_robot_line(x, line), lambda v: models.h_line(v, line), x),
-        (jacobians.H_line(x, line), lambda v: models.h_line(x, v), line),
-        (jacobians.J_xr_line(x, line), lambda v: models.g_line(v, line), x),
-        (jacobians.J_z_line(x, line), lambda v: models.g_line(x, v), line),
-    ]
-    for coded, f, at in pairs:
-        np.testing.assert_allclose(coded, finite_differences(f, at, angular), atol=1e-6)
 
 
 @given(st.lists(poses, min_size=1, max_size=3), st.lists(points, min_size=1, max_size=3))

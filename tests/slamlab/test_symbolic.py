@@ -3,6 +3,7 @@
 import importlib
 import subprocess
 import sys
+from functools import cache
 
 import numpy as np
 import pytest
@@ -54,13 +55,18 @@ NUMBERS = {
 ANGULAR = {"f_odometry": 2, "f_steered": 2, "h": 1, "h_line": 1, "g_line": 1}
 
 
+@cache
+def derived_function(name):
+    return symbolic.numeric(getattr(symbolic, name), *ARGUMENTS[name])
+
+
 @pytest.mark.parametrize("name", ARGUMENTS)
 @given(data=st.data())
 def test_the_derivation_equals_the_code(name, data):
     numbers = data.draw(NUMBERS[ARGUMENTS[name]])
     if ARGUMENTS[name] is SEEN:
         assume(np.hypot(*(numbers[1] - numbers[0][:2])) > 1e-3)
-    derived = symbolic.numeric(getattr(symbolic, name), *ARGUMENTS[name])(*numbers)
+    derived = derived_function(name)(*numbers)
     coded = getattr(models, name)(*numbers)
     assert derived.shape == coded.shape
     if name in ANGULAR:
