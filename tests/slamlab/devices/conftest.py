@@ -4,6 +4,7 @@ import pytest
 
 from slamlab.devices.emir import session
 from slamlab.devices.rplidar import scan_stream
+from tests.slamlab.devices.recorded_devices import SCANS, record
 from tests.timeouts import PATIENCE
 
 
@@ -15,3 +16,9 @@ def busy_machine(monkeypatch):
     """
     for module in (session, scan_stream):
         monkeypatch.setattr(module, "RECEIVE_TIMEOUT", PATIENCE)
+
+
+@pytest.fixture(scope="session")
+def recorded(tmp_path_factory):
+    """A path by scan mode: a lidar and a robot, 3 s of each, in simulated time."""
+    return {name: record(tmp_path_factory.mktemp("raw") / "a.raw", name) for name in SCANS}
