@@ -52,6 +52,10 @@ from slamlab.simulation.worlds import World
 # A robot drives once round a corridor of 42 m and ends where it began. The figure shows the map by
 # odometry alone.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Before the vote, let the class state which two scans `icp` compares. Students
+# who choose "0 cm" assume that it compares the last scan with the first.
+
 
 # %% slideshow={"slide_type": "fragment"} tags=["folded"]
 def scan_layers(poses, clouds, name="corrected"):
@@ -134,6 +138,11 @@ views.show(
 # A SLAM system with a pose graph has two halves. The **back end** (part one) computes the poses that fit all edges
 # best. The **front end** (part two) computes edges from sensor data: it matches scans and finds loops.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Draw the graph of the corridor at the board: a long chain and one edge that
+# closes it. Ask what the state of EKF-SLAM contains instead: only the last pose, and the landmarks.
+# Stress that a loop is an edge like all others, and that a false loop is one, too.
+
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### The residual of an edge
 #
@@ -155,6 +164,10 @@ views.show(
 #
 # The back end changes the poses until the residuals are small. For this purpose it needs the Jacobians
 # $J_i = \partial e / \partial x_i$ and $J_j = \partial e / \partial x_j$.
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Students who choose $y$ read $e$ in the world frame: let them name the axes of
+# the predicted pose. If time is short, show only (15.3) and the cell that compares the Jacobians.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -218,6 +231,7 @@ views.explore(
 # arbitrary point with central differences of the residual, and with the Jacobians that sympy derives.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# the Jacobians of the library, differences of the residual, and sympy
 at = [np.array([1.2, -0.7, 2.9]), np.array([-0.4, 1.9, -2.2]), np.array([1.1, 0.6, 0.8])]
 symbols = [*edge_symbolic.x_i, *edge_symbolic.x_j, *edge_symbolic.z]
 numbers = dict(zip(symbols, np.concatenate(at), strict=True))
@@ -292,6 +306,11 @@ for k, J in enumerate((J_i, J_j)):
 # many times as large. The robot turns left by 90°, and we match the new scan with the old scan. The
 # measurement $z$ is expressed in the frame of the *old* pose, whose x axis is parallel to the corridor.
 # So the $x$ of $z$ has the large $\sigma$.
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Let a student stand in the aisle of the hall, point along it, and turn by 90°:
+# the aisle stays, but its direction in the student's frame changes. In rooms with walls in several
+# directions this mistake hardly shows, so it remains undetected in many programs.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -381,11 +400,15 @@ views.explore(
 # odometry measures 2.1 m and 84° each time. At the end a scan match shows that the robot is back at its
 # start.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Let the class fill in the pattern of the blocks at the board before the cell
+# prints it. Before the question on the sides, draw a closed square with sides of 2.1 m. If time is
+# short, leave out *Your turn* and the box of the algorithm.
+
 
 # %% slideshow={"slide_type": "fragment"}
+# four odometry edges, and a loop from the last pose to the first
 def square(sigma_of_loop=0.02):
-    """Four odometry edges, and a loop from the last pose to the first."""
-
     def information(metres, degrees):  # x and y alike, so that (15.7) changes nothing
         return np.diag(1 / np.square([metres, metres, np.radians(degrees)]))
 
@@ -429,8 +452,8 @@ compare(cost_of_loop, least_squares_problem(square()).errors(start)[1][-1])
 
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# which 3 × 3 blocks of an information matrix are not zero?
 def print_blocks(matrix):
-    """Print which 3 × 3 blocks of an information matrix are not zero."""
     count, size = len(matrix) // 3, abs(matrix).max()
     for row in matrix.reshape(count, 3, count, 3):
         print(" ".join("■" if abs(row[:, k]).max() > 1e-9 * size else "·" for k in range(count)))
@@ -464,6 +487,7 @@ ask(
 )
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="15-gauge"
+# eigenvalues of zero, and three motions that change no residual
 values, start = np.linalg.eigvalsh(information), square().poses
 print("zero eigenvalues:", np.count_nonzero(values < 1e-9 * values[-1]), "of", len(values))
 turned = np.column_stack([-start[:, 1], start[:, 0], np.ones(5)]).ravel()
@@ -555,6 +579,7 @@ views.explore(
 # > **Output:** the poses $x$ of least cost, and $\Lambda_x$; $\Lambda_x^{-1}$ is their covariance to first order.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# Gauss–Newton on the square, by the steps of the box
 problem, poses = least_squares_problem(square(), fixed=[0]), square().poses
 for iteration in range(8):
     e, chi2 = problem.errors(poses)  # steps 1 and 2
@@ -596,6 +621,7 @@ ask(
 )
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="15-halfway"
+# add the loop, optimise, and compare with the truth
 closed, certain = deepcopy(chain), loops.match_information(closing)
 closed.add_edge(0, last, closing.pose, certain)
 optimum, errors = closed.optimise(), {}
@@ -633,11 +659,13 @@ views.explore(
     with_loop=True,
 )
 
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="15-halfway"
+# Set the pose to 0 and press ▶: for a hundred poses both maps have the same error. At the last pose the
+# loop is added, and the error of the right map decreases suddenly.
+
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="15-halfway"
 # One of {= len(closed.edges) =} edges reduces the largest error from {= errors["odometry"].max():.1f =}
-# m to {= 100 * errors["with one loop"].max():.0f =} cm. Set the pose to 0 and press ▶: for a hundred
-# poses both maps have the same error. At the last pose the loop is added, and the error of the right
-# map decreases suddenly.
+# m to {= 100 * errors["with one loop"].max():.0f =} cm.
 #
 # Each ellipse shows a **marginal covariance**: the block of $\Lambda_x^{-1}$ that belongs to one pose.
 # With the loop the ellipses are largest *half way*, and small at both ends. (The inverse of a block of
@@ -694,6 +722,7 @@ compare(marginal, best.covariances()[4])
 # corridor, and from two different corners of our corridor.
 
 # %% slideshow={"slide_type": "fragment"}
+# three pairs of scans
 bare, rng = World([[-30, -1, 30, -1], [-30, 1, 30, 1]]), np.random.default_rng(1)
 alley = [preprocess(RPLIDAR_A2.scan(bare, p, rng).points()) for p in ((0, 0, 0), (3, 0.1, 0.1))]
 pairs = {
@@ -752,6 +781,11 @@ views.show(
 # **Your turn.** Compute $d^2$ for the loop of the last section. Its first pose is fixed, so only the last
 # pose contributes to $S$.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Most students look only at the column of wrong candidates. Ask what each
+# rejected right candidate costs, and why *near* rejects six of the eight right ones: their keyframes
+# are farther apart than the search radius, although the matches are right.
+
 # %% slideshow={"slide_type": "fragment"} tags=["your-turn"]
 ends = chain.poses[0], chain.poses[last], closing.pose
 v, J, R = edge_error.error(*ends), J_j(*ends), np.linalg.inv(certain)
@@ -788,6 +822,7 @@ compare(d2, chain.squared_mahalanobis(0, last, closing.pose, certain))
 # error exceeds 15 cm or 6°.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output", "nearly"]
+# candidates that pass each test
 slam = deepcopy(results["graph"].estimator)
 slam.graph.edges = [edge for edge in slam.graph.edges if not edge.robust]  # without its loops
 slam.graph.optimise()
@@ -821,7 +856,13 @@ for name, (right, bad) in passed.items():
 # `graph` searches for loops within five times the usual distance. We run `graph` once with its gate,
 # which rejects loops with a $d^2$ above 60, and once without the gate.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Ask before the run which measurement could distinguish the two rooms at all.
+# Nothing in a scan can; only the path between the rooms does, and this is the information that the
+# gate uses.
+
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output", "nearly"]
+# `graph` in the twin rooms, with a gate and without
 twins = false_loops.drive_twin_rooms()
 systems = {"gate at 60": twins.with_gate, "no gate": twins.without}
 for name, slam in systems.items():
@@ -852,7 +893,7 @@ views.show(
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # The left map has two rooms, and no loop connects them. Without the gate, {= twins.count_false(twins.without) =}
 # false loops become edges of the graph. If every loop is trusted, the two rooms and their furniture
-# coincide (right map), and the corridor between them is distorted. The optimiser of `graph` does not trust
+# coincide (right map), and the corridor appears shorter than it is. The optimiser of `graph` does not trust
 # every loop: it gives the false ones the weight zero, and its map is right even without the gate. The
 # sections below derive how.
 
@@ -863,6 +904,10 @@ views.show(
 # cases. We use the {= np.sum(~twins.false) =} right loops of the first run, and
 # {= np.sum(twins.false) =} false loops of the second run (those whose keyframes exist in both runs).
 # For each of these loops we compute $d^2$ in a graph of **odometry alone**.
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Move the second slider to 0.2 first, and let the class find a threshold for this
+# model. The threshold and the covariance of the odometry cannot be chosen separately.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -881,6 +926,7 @@ ask(
 
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output", "nearly"] answers="15-width"
+# d² of all loops, for three standard deviations of odometry
 by_scale = {scale: twins.squared_mahalanobis(scale) for scale in (0.2, 1, 3)}
 print("σ of odometry ×   right ones up to   false ones from")
 for scale, d2 in by_scale.items():
@@ -952,6 +998,12 @@ views.explore(
 #
 # In (15.5) the $\Lambda$ of a robust edge is replaced by $w\Lambda$, and $w$ is computed again in each iteration. This is
 # **iteratively reweighted least squares**.
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Students confuse the cost and the weight: the left panel shows the first, the
+# right panel the second. As a picture for the weights, a squared cost is a spring, Huber's cost is a
+# rope that pulls with a constant force, and a truncated cost is a spring that breaks. Show only DCS
+# and truncated least squares if time is short.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # Other kernels are also widely used:
@@ -1027,6 +1079,11 @@ views.explore(
 # called **graduated non-convexity** (GNC). A natural first value is the largest $\chi^2$ of any loop:
 # then every loop has full weight at first.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Reduce the first $\Phi$ step by step, and let the class predict the map each
+# time. Do not stop before 11.3: otherwise the class concludes that a smaller first value is always
+# better.
+
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "15-liars",
@@ -1069,7 +1126,7 @@ views.explore(
     annealed,
     lambda first_phi: (
         f"Left: the weights of right and false loops while Φ decreases from {views.grouped(first_phi)}; right: the map. "
-        "From the largest Φ the right loops lose their weight; from a smaller one the false loops do."
+        "From the largest Φ most loops of both kinds lose their weight; from a smaller one only the false loops do."
     ),
     first_phi=slider("first Φ", [11.3, 100, 1000, *(10**k for k in (4, 5, 6, 7, 9))], 10**9),
 )
@@ -1080,9 +1137,9 @@ views.explore(
 # determines in how many iterations all loops have full weight.
 
 
-# %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output", "nearly", "code"] answers="15-liars"
+# %% slideshow={"slide_type": "subslide"} answers="15-liars"
+# the largest error by five methods: trusted, Huber, DCS from two first Φ, GNC in the library
 def errors_with(loops):
-    """The largest error by each method: trusted, Huber, DCS from two first Φ, GNC in the library."""
     graphs = [
         twins.close_loops(loops, robust=False)[0],
         twins.close_loops(loops, kernel=Huber())[0],
@@ -1091,6 +1148,8 @@ def errors_with(loops):
     return [twins.largest_error(graph.poses) for graph in graphs]
 
 
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output", "nearly"] answers="15-liars"
+# none to all of the false loops, and every fourth of them alone
 right, single = twins.select_loops(0), np.flatnonzero(twins.false)[::4]
 print("false loops   trusted   Huber   DCS from 10⁹   DCS from 10⁴   library")
 every = int(np.sum(twins.false))
@@ -1102,11 +1161,11 @@ ruined = (alone > 1).sum(axis=0)
 print(f"maps that one of {len(single)} false loops, alone, ruins:", *ruined.tolist())
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="15-liars"
-# Without a kernel, a single false loop causes an error of {= by_count[1][0]:.1f =} m, and three are too
-# many for Huber's kernel ({= by_count[3][1]:.1f =} m). With DCS the result depends on the first $\Phi$: from
-# 10⁹, three false loops ruin the map ({= by_count[3][2]:.1f =} m); **from 10⁴ the error is
-# {= by_count[every][3]:.2f =} m with all {= every =} false loops**. Another graph may need another value, and nobody
-# knows it in advance.
+# Without a kernel, a single false loop causes an error of {= by_count[1][0]:.1f =} m. With Huber's kernel,
+# {= ruined[1] =} of {= len(single) =} false loops cause an error of more than 1 m, each of them alone. With
+# DCS the result depends on the first $\Phi$: from 10⁹, three false loops ruin the map
+# ({= by_count[3][2]:.1f =} m); **from 10⁴ the error is {= by_count[every][3]:.2f =} m with all
+# {= every =} false loops**. Another graph may need another value, and nobody knows it in advance.
 #
 # So the library (`PoseGraph.optimise`) searches from several starts: each begins with other loops, and
 # graduates what it allows. Its kernel is truncated least squares, whose cost is a (logarithmic)
@@ -1153,6 +1212,11 @@ for some_right in (84, 8, 3, 1):
 # the cell's **log-odds**, which are 0 for even odds. $p(o \mid z_t)$ is the **inverse sensor model**: 0.7 for a cell
 # in which a beam ends, 0.4 for a cell that a beam passes. So a beam needs one addition per cell. (The
 # grid also treats neighbouring cells as independent.)
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Ask which state a cell has that was hit as often as it was passed. Most students
+# say "unknown", but a hit changes the log-odds by 0.85 and a pass by only −0.41, so the grid calls
+# the cell occupied.
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **Your turn.** Two beams end in a cell, and a third beam passes it. Compute its log-odds, with the
@@ -1227,6 +1291,10 @@ views.show(
 # {= intel_maps.stored().minutes:.0f =} minutes, on several laps through the Intel Research Lab. The
 # maps are stored with the course; `slamlab data get --lesson 15` fetches the recording.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Ask the class to find a double wall in the left map before you name one. If time
+# is short, leave out the public pose graphs.
+
 # %% slideshow={"slide_type": "subslide"} tags=["folded"]
 intel = intel_maps.stored()
 closed_map = {"scans": Points("corrected", intel.points["graph"][::6])}
@@ -1247,10 +1315,10 @@ for name in intel.points:
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # In the left map, walls appear twice where the robot returned to a place. In the right map
 # {= len(intel.loops) =} loops connect the laps. The error is the mean over {= intel.relations =}
-# *relations*: relative poses, checked by hand (Kümmerle et al. 2009). Loop closure makes this error
-# {= intel.off["icp"] / intel.off["graph"]:.0f =} times smaller than that of the matcher alone, and
-# {= intel.off["odometry"] / intel.off["graph"]:.0f =} times smaller than that of
-# odometry.
+# *relations*: relative poses, checked by hand (Kümmerle et al. 2009). The error of `graph` is
+# {= intel.off["icp"] / intel.off["graph"]:.0f =} times smaller than that of `icp`, and
+# {= intel.off["odometry"] / intel.off["graph"]:.0f =} times smaller than that of odometry. (`graph` also
+# matches each scan with several earlier scans, so loop closing is not the only difference to `icp`.)
 #
 # The authors state 0.031 ± 0.026 m for their graph (quoted from a secondary source), but over all 2984
 # relations of a longer log. Our relations may be easier. So our error is of the same order, but the
@@ -1344,6 +1412,10 @@ views.show(
 # Is (15.5) right? We check the equation for an edge with two residual components, two unknowns and a
 # symmetric $\Lambda$. Is (15.10) the derivative of (15.9)?
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Show this if somebody doubts the factor 2. With a $\Lambda$ that is not
+# symmetric the first difference is no longer zero: replace one `l_12` by another symbol.
+
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output", "code"]
 J = sp.Matrix(2, 2, sp.symbols("J_11 J_12 J_21 J_22"))
 e, delta = sp.Matrix(sp.symbols("e_1 e_2")), sp.Matrix(sp.symbols("delta_1 delta_2"))
@@ -1367,6 +1439,10 @@ print("the largest cost:", sp.limit(cost, chi2, sp.oo))
 # of the poses. For the graph of the twin rooms we compare the order of the trajectory with an order
 # that reduces fill-in (*minimum degree*).
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Let the class eliminate a star by hand, one pose in the middle of five: with the
+# middle first, all others become connected; with the middle last, there is no fill-in.
+
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 graph = twins.with_gate.graph
 of_poses, in_order, reordered = odometry_graphs.fill_in(graph)
@@ -1385,7 +1461,12 @@ print(f"not zero: {of_poses} of Λ_x; {views.grouped(in_order)} of L, {reordered
 # negative gradient (scaled by $\operatorname{diag} \Lambda_x$). We compare both methods on a ring of
 # poses, from two random initial guesses of four poses.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Students often expect that damping avoids local minima. The second guess shows
+# that it does not: damping guarantees only that the cost never increases.
+
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# both methods and rotation averaging, from two random guesses
 ring = odometry_graph([[1, 0, np.pi / 2]] * 4, corridor.robot)
 ring.edges = [edge._replace(information=np.diag([100.0, 100, 400])) for edge in ring.edges]
 ring.add_edge(4, 0, np.zeros(3), 2500 * np.eye(3))
@@ -1423,6 +1504,11 @@ for seed in (5, 0):
 #
 # **Your turn.** Marginalise out pose 2 of the square.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Ask what happens if one simply deletes the rows and columns of pose 2 from
+# $\Lambda_x$. The result belongs to a pose 2 that is known exactly (conditioning), so the covariance
+# of the others becomes too small.
+
 # %% slideshow={"slide_type": "fragment"} tags=["your-turn"]
 Lambda_x, m = total_information(best)[3:, 3:], np.arange(3, 6)  # poses 1 to 4; pose 2
 r = np.setdiff1d(np.arange(12), m)
@@ -1443,6 +1529,7 @@ compare(schur, np.linalg.inv(np.linalg.inv(Lambda_x)[np.ix_(r, r)]))
 # </details>
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# marginalise out pose 2: blocks, and covariance of the other poses
 print_blocks(Lambda_x)
 print("without pose 2:")
 rest = Lambda_x[np.ix_(r, r)]
