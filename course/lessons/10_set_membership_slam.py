@@ -59,6 +59,11 @@ from slamlab.sources.landmark_runs import LandmarkRun, Loop
 # each reading. All twelve statements are true at the same time, so the true distance lies where all
 # twelve intervals overlap.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* The answer 5.8 cm is that of statistics with independent errors: let its
+# supporters state this assumption. The intersection does not need it, so it also gains less from many
+# readings.
+
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "10-overlap",
@@ -137,6 +142,11 @@ compare(feasible, common_part(*(around(each, d_z) for each in z)))
 # of a uniform error, 10 cm$/\sqrt 3 = 5.8$ cm, and computes the mean of all twelve readings. The filter
 # assumes independent errors, so the mean has $\sigma = 5.8$ cm$/\sqrt{12} = 1.7$ cm.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Let the supporters of the mean say which errors a mean removes. In the figure,
+# first move `too_long_by` beyond the bound, where nobody notices the violation, and then increase the
+# scatter until the intersection is empty.
+
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "10-bent",
@@ -204,6 +214,10 @@ views.explore(
 #
 # So the filter stores four numbers for each landmark, and no numbers for pairs of landmarks.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Draw the circle and mark 170° and −170°. Students want to sort the ends: ask
+# which of the two arcs between them is then meant. Skip the cell if time is short.
+
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # Intervals of angles have a special difficulty. Consider a heading between 170° and 190°. The wrapped
 # ends of this interval are 170° and −170°. But all angles between −170° and 170° lie outside it.
@@ -235,6 +249,10 @@ for degrees in (180, 0):
 # whose reference point is the steered wheel, $\delta$ is the steering angle.) Each of these quantities
 # is known only within an interval. We want the smallest box that contains every possible position of
 # the robot after the motion.
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* If time is short, show only the question, (10.4) and the figure; the derivative
+# and the two printed checks are for reading.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -362,6 +380,11 @@ views.explore(
 #
 # $$d_{\mathrm{abs}} = d_\beta + d_\theta. \tag{10.5}$$
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Sketch the sector and let the class draw the four edges. The usual mistake is a
+# near edge that touches the inner arc in its middle and cuts off the two corners. The exercise needs
+# the same idea.
+
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # From one point, the feasible set of the landmark's position is a sector of a ring. The intersection of
 # sectors is difficult to compute, but that of half-planes is easy. A **half-plane** consists of all
@@ -476,6 +499,11 @@ views.explore(
 # where $c$ is the *signed* distance of the line from the robot along $n$. For the far edge $n$ is the middle direction, and $c = r + d_r > 0$. For the
 # near edge $n$ points back to the robot, and $c = -(r - d_r) \cos d_{\mathrm{abs}} < 0$. For the two rays $c = 0$.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Move a paper square (the robot's box) along an edge at the board: its farthest
+# corner draws the shifted edge. The one sentence to remember is the question about the weakest
+# condition.
+
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # The position of the robot within its box is unknown. A point may be excluded only if it is excluded
 # for *every* $t$ in the box. So we shift the edge outwards, by the largest value of $n^{\mathsf T} t$
@@ -522,6 +550,7 @@ compare(landmark, [*add(robot[:2], offset[:2]), *add(robot[2:], offset[2:])])
 
 
 # %% slideshow={"slide_type": "subslide"}
+# the landmark's box after some of the four edges
 LANDMARK, SEEN, WITHIN, GUESS = (2.6, 0.55), (2.6, 0.24), (0.15, 0.06), (0.8, 4.2, -1.6, 3.8)
 
 
@@ -578,7 +607,13 @@ views.explore(
 # $\pi$ and shifted outwards by the *landmark's* box. We test this with a landmark that is known within
 # 1 m, and with a landmark of a map that is known within 5 cm. Which sides of the robot's box will move?
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Students expect the well-known landmark to move all four sides. Ask why the
+# opposite side does not move: the near edge would move it, but the cosine in (10.6) makes this edge
+# too weak here. If time is short, only state (10.10).
+
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# contract the robot's box by a landmark known within 1 m, and within 5 cm
 robot, d_abs = (-0.4, 0.4, -0.25, 0.25), WITHIN[1] + 0.3
 for known_within in (1.0, 0.05):
     target = (*around(LANDMARK[0], known_within), *around(LANDMARK[1], known_within))
@@ -638,6 +673,10 @@ views.show(
 # the heading interval. Contracting all sets in turn until they no longer change is called **constraint
 # propagation**. The filter iterates as long as some side shrinks by more than 1 %, at most 20 times.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Students expect that the iteration ends at the smallest possible box. It ends
+# where the two approximations gain nothing more; ask why smaller pieces of the box would gain more.
+
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 state = (-1.14, 1.14, -0.14, 0.14), (-0.89, 0.89), (2.57, 2.63, 0.52, 0.58)
 for k in range(5):
@@ -672,6 +711,7 @@ for k in range(5):
 # > *Output:* boxes that contain the truth, if every error is within its bound
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# predict, initialise and update on a run of 60 steps
 run = study.BoundedRun(study.BoundedNoise(), np.random.default_rng(4), 60)
 bor = run.filter()
 for motion, measurements in run:
@@ -696,6 +736,10 @@ print("the robot is inside its box:", inside(bor.robot, run.pose))
 # the following 200 worlds is drawn at random. They include three motion models; bounds from a tenth of
 # a millimetre to a metre; errors that fill the interval between their bounds, or are always at a bound;
 # landmarks in one cluster; headings that wrap, or are completely unknown.
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Let the class list the conditions before you show them; the initial box and the
+# rounding are nearly always forgotten. The sections that follow violate the conditions one at a time.
 
 # %% slideshow={"slide_type": "subslide"}
 ask(
@@ -733,6 +777,10 @@ print({name: table["counted"][name] for name in ("steps", "observations", "outsi
 # Now we violate a bound once. The map is known. In step 20, *one* range is an **outlier**: it is too long by more than its
 # bound. All other errors stay within their bounds. The runs have 40 steps.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Look at the third column of numbers: the dangerous outliers are the small ones.
+# Students expect a larger outlier to be more dangerous, because it is in least squares.
+
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "10-lie",
@@ -751,6 +799,7 @@ ask(
 )
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="10-lie"
+# 40 runs for each size of the outlier
 print("off by   at once   later   never, truth out   never, truth in")
 undetected, steps_out = {}, {}
 for times in (1.5, 2, 3, 5):
@@ -792,6 +841,10 @@ except EmptyIntersection as error:
 # a rule. If the feasible set of the measurement overlaps the box of exactly one landmark, the
 # measurement is associated with it. If the set overlaps no box, the landmark is new. If it overlaps
 # several boxes, the filter ignores the measurement and counts it.
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Act the scene with three chairs. The question separates two kinds of guarantee:
+# all noise is within its bounds, and the result is still wrong.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -850,6 +903,10 @@ views.show(fig, "The robot's box shrinks to its left end, and the true robot is 
 # accurate as in lesson 06. The noise is Gaussian, so no bound is certain; we use $3\sigma$. We also
 # compare them with odometry alone.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Let the class write down the three errors before the cell runs. The middle of a
+# box is no estimate: ask what the filter minimises (nothing), and why the box is then so wide.
+
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "10-nearest",
@@ -869,6 +926,7 @@ ask(
 )
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="10-nearest"
+# position errors of both filters and of odometry, in ten runs
 BETTER = Loop(v_sigma=0.004, omega_sigma=0.0024, range_sigma=0.02, bearing_sigma=np.radians(0.4))
 sources = [LandmarkRun(replace(BETTER, steps=150), np.random.default_rng(k)) for k in range(10)]
 results = [compare_filters(source) for source in sources]
@@ -932,6 +990,7 @@ views.show(
 # 600 steps:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="10-nearest"
+# a thousand robots after 600 steps: standard deviation and bound
 m, k, sigma = 600, 3, BETTER.v_sigma
 ends = np.random.default_rng(6).normal(0, sigma, (1000, m)).sum(axis=1)
 ratio = m * k * sigma / ends.std()
@@ -945,6 +1004,10 @@ print(f"by (10.11) {k * np.sqrt(m):.0f}; the largest error of all is {np.abs(end
 #
 # In the first of these runs the loop closes between the steps 60 and 84. Half a side of the robot's box shrinks from
 # {= first.half_side[60]:.1f =} m to {= first.half_side[84]:.1f =} m. Landmarks 5 to 8 were observed before, and they are out of view during all these steps.
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Let the class read the last three columns first, and then the boxes, which stay
+# equal to the last digit. This table is the shortest reason for the covariances of lesson 07.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -995,7 +1058,13 @@ for i in (5, 6, 7, 8):
 # a bound then violated, how often is the truth outside a box, and how often does the filter detect it?
 # We use the same ten runs:
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* The misconception is that $3\sigma$ is practically certain. Ask for the number
+# of errors in one run before the *Your turn* cell: with 1350 of them, some are nearly always beyond
+# their bound.
+
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# the ten runs again, with bounds of 1σ, 2σ and 3σ
 by_sigmas = {k: [compare_filters(source, k) for source in sources] for k in (1, 2)} | {3: results}
 beyond = {k: [beyond_bounds(source, k) for source in sources] for k in by_sigmas}
 print("bound   errors beyond it, per run   runs outside   detected in   rms of the middle")
@@ -1050,6 +1119,11 @@ compare(no_violation, binom.pmf(0, 1350, p))
 # $x$ or in $y$, whichever ratio is larger). For the 95 % ellipse, it is the error divided by the radius
 # in the direction of the error. If the ratio is above 1, the robot is outside. (The plot omits the
 # ellipse in the first ten steps, in which it is nearly a point.)
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Students expect the filter with the violated assumption to have the larger
+# error. Here it is inconsistent and still more accurate: let them say for which task they would
+# prefer which filter.
 
 
 # %% slideshow={"slide_type": "subslide"} tags=["folded"]
@@ -1150,7 +1224,12 @@ print({NAMED[name]: f"rms error {100 * error:.0f} cm" for name, error in steady.
 # the arc, $(s_l + s_r)/2$, from which the chord $d$ follows, and the rotation, $(s_r - s_l)/B$. So each
 # of the two distances occurs twice in $x'$. The box is still guaranteed, but wider than necessary:
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* One line at the board suffices: $x - x$ and $x \cdot x$ for $x$ in $[-1, 1]$. In
+# interval arithmetic the second gives $[-1, 1]$ instead of $[0, 1]$.
+
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# the predicted box of a robot with two wheels, and 20 000 sampled motions
 left_path, right_path = (0.28, 0.32), (0.33, 0.37)
 box, _ = predict_box((0, 0, 0, 0), (0, 0), *wheels(left_path, right_path, 0.3))
 rolled = np.random.default_rng(2).uniform(*zip(left_path, right_path, strict=True), (20_000, 2))
@@ -1165,6 +1244,10 @@ for name, k in (("x", 0), ("y", 1)):
 # Equation (10.6) was derived for angles below $\pi/2$. Which error results if the heading is hardly
 # known, and $d_{\mathrm{abs}}$ is larger than $\pi/2$? We use the four edges nevertheless, and compute
 # the share of the feasible points (uniform in range and angle) that they cut off.
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Ask why the near edge changes sides: the cosine in (10.6) becomes negative. The
+# lesson for programs is that a formula needs its range of validity in the code.
 
 # %% slideshow={"slide_type": "fragment"} tags=["folded"]
 half_widths = np.linspace(0.2, 3.1, 60)
@@ -1193,6 +1276,10 @@ views.show(
 # What is the intersection of the headings "from −150° to 150°" and "from 120° to 240°"? On a circle,
 # two intervals can overlap at both ends:
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Let the class find two arcs on a circle whose intersection has two pieces; three
+# pieces are impossible with two arcs.
+
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 wide, behind = (angles.angle_interval(*np.radians(ends)) for ends in ([-150, 150], [120, 240]))
 pieces = angles.intersection(wide, behind)
@@ -1219,6 +1306,10 @@ views.show(
 # robot. If the data association is known, the time of an update does not depend on the number of
 # landmarks. To find the association, the filter has to test all boxes.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* The memory columns are computed, and the times are measured on your machine. Ask
+# how large the map of a city could be with each filter.
+
 
 # %% slideshow={"slide_type": "fragment"} tags=["folded"]
 def seconds_of(call, n=50):
@@ -1236,6 +1327,7 @@ def cost(N):
 
 
 # %% slideshow={"slide_type": "fragment"}
+# time of an update and of an association, and memory, for N landmarks
 print("      N   update   association   memory of BOR   of MAK (06)")
 for N in (100, 10_000, 100_000):
     known, find = cost(N)

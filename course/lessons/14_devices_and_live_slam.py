@@ -69,6 +69,11 @@ from slamlab.sources.live_devices import devices
 # the beams of one scan from different poses. The resulting error of the scan is called **motion
 # distortion**.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Turn slowly with a stretched arm while you count the beams: the arm points
+# elsewhere at the last beam than at the first. In the two maps, let the class find a blurred wall
+# before you name the door. With a lidar, start the command before the lecture.
+
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "14-distortion",
@@ -117,6 +122,7 @@ compare(deskewed, np.linalg.solve(matrix(end), [4.0, 0.0, 1.0])[:2])
 # </details>
 
 # %% slideshow={"slide_type": "fragment"} answers="14-distortion"
+# the first 15 s of a walk, with and without the times of the beams
 from dataclasses import replace
 
 walk = sources.open("sim:flat-carried")
@@ -175,7 +181,12 @@ views.show(
 # bytes. The emulator needs no port, and runs faster than real time. Its simulated room is Tuček's
 # cardboard polygon from lesson 13.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Students expect a library call that returns points. Show the raw bytes of the
+# output first, and ask where a point begins; nobody can know without the protocol.
+
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# request a scan from the emulated lidar, and print the answer
 polygon = worlds.polygon()
 lidar = trials.carried_lidar(EmulatedRobot(polygon, np.random.default_rng(0)))
 scan = trials.received(lidar, request(Command.SCAN), begin=0.0, seconds=1.0)
@@ -291,6 +302,11 @@ views.explore(
 # help to detect such groups: S must differ from its complement, and C must be 1. How often do random
 # bytes pass this test?
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Cover the first column of a printed stream and let the class guess where the
+# nodes begin. Students propose an exception for a damaged packet: ask what then happens to a map
+# after an hour.
+
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 random = np.random.default_rng(5).integers(0, 256, (100_000, 5))
 S, complement, C = random[:, 0] & 1, random[:, 0] >> 1 & 1, random[:, 1] & 1
@@ -344,6 +360,11 @@ print(f"{len(good)} of {len(nodes)} nodes are left, and no exception was raised"
 # at most 11 520 bytes, or 2304 nodes, per second. This is less than the sample rate.
 #
 # Therefore, the protocol has a second format, the *capsule*, with 32 points in 84 bytes.
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* If you show this section, let the class compute the line's limit in points per
+# second. The price of the dense format, that a capsule waits for the next one, is the point to keep;
+# latency returns in part two.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 for name, size, count in (("nodes", 5, 1), ("capsules", 84, 32)):
@@ -400,6 +421,10 @@ for count in (1, 2, 3):
 # mounted over the origin of the robot frame, facing forwards. Then the coordinates of the point are
 #
 # $$x = r \cos\psi, \qquad y = -r \sin\psi. \tag{14.4}$$
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Do not show the sign in advance. Let the class vote which of the two maps is the
+# real room: it cannot be decided, and this is the reason for the next section.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # **Your turn.** A node contains the angle 90° and the distance 2000 mm. Compute the coordinates of its
@@ -532,6 +557,7 @@ views.show(
 # sign rotates the second scan by $2\theta$. After an arc of 90° this rotation is 180°:
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="14-experiment"
+# both signs, after arcs of 40° and 90°, in three rooms
 rectangle = worlds.World(worlds.box((0, 0), (6, 4)), name="rectangle")
 bare = worlds.World(worlds.box((0, 0), (40, 2)), name="bare corridor")
 print("right sign: median [cm]; wrong sign: median and 90th percentile [cm]")
@@ -566,6 +592,10 @@ for world in (polygon, rectangle, bare):
 # checksum. A **checksum** is a number that is computed from the other bytes of a packet, so that the
 # receiver can detect damage. A negative argument is sent as its *two's complement*, which is the number
 # plus 256. The next cell prints three valid frames:
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Let everybody compute the checksum of (−1, −1). The wrong rule works for all
+# positive arguments, so ask which tests a program needs.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 for what, text in (("send", "#100100EF/"), ("halt", "#010000FF/"), ("reset", "#150000EB/")):
@@ -657,6 +687,7 @@ ask(
 
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="14-ring"
+# the path, unwrapped by the library
 def unwrapped(values):
     """Counts since the first reading, by the library's unwrapper."""
     counter = CounterUnwrapper()
@@ -686,6 +717,10 @@ print("from 120 to −116:", unwrapped([120, -116])[-1])
 #
 # One count of our emulated robot is 1.03 cm of path or 2.14° of turn. At full speed it drives at 40 cm/s, or turns by
 # 100° a second.
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Increase the interval in the figure slowly past the limit of (14.8). The robot
+# seems to drive backwards: ask for the same effect in films (the wheels of a coach).
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -824,6 +859,7 @@ views.explore(
 # slip at random, so we simulate forty runs:
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="14-harm"
+# forty round trips, with each pair of scale factors
 PAIRS = {
     "thesis": (1, 2),
     "path correct": (1.03, 2),
@@ -862,7 +898,13 @@ for name, each in off.items():
 # robot is not at 0° of your lidar, pass the angle of the front as `front=` to `devices`. A notch in the
 # housing marks 0°.)
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* This slide decides which robot the rest uses, so enter the ports before the
+# lecture. Ask where the watchdog should be, and let the class find the failures against which the one
+# on the computer does not help.
+
 # %% slideshow={"slide_type": "fragment"}
+# the ports of your devices; None: emulators
 LIDAR_PORT = None  # such as "/dev/ttyUSB0" or "COM3"
 EMIR_PORT = None  # such as "/dev/rfcomm0" or "COM12"
 
@@ -881,6 +923,7 @@ def robot(rng, calibration=None):
 # program has ended, for example by an exception?
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# the program ends while the robot drives
 body = EmulatedRobot(worlds.corridor(), np.random.default_rng(1))
 emir = EmirEmulator(body)
 emir.feed(commands.move(50, 0), 0.0)
@@ -912,6 +955,11 @@ print(f"five seconds later the robot is {body.pose[0] - ended_at:.1f} m farther"
 #    turns exceed 360° (negative if their sum is less).
 # 3. Enter both values in the cell after the next cell, and run it. (With `None`, the emulator supplies
 #    the true values.)
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* With a robot, mark the floor with tape before the lecture; the run takes about a
+# metre of free space and four quarter turns. Let two students measure, and compare their values with
+# the resolution of one count.
 
 # %% slideshow={"slide_type": "fragment"}
 with robot(np.random.default_rng(7)) as source:
@@ -948,6 +996,7 @@ print(
 # record a simulated run round the table:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# record a simulated run round the table, and read the file
 folder = tempfile.TemporaryDirectory()
 drive = Path(folder.name) / "table.rec"
 COURSE = [(0.5, 0, 0), *trials.ROUND, (0.5, 0, 0)]
@@ -991,6 +1040,11 @@ print(f"{recording.seconds:.0f} s, {received} pieces received, {len(whole)} revo
 # driver fits a straight line, arrival time over point number, to the *earliest* arrivals. (This method
 # cannot find a delay that is equal for all bytes.) Does this accuracy matter?
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Students think of latency as a delay of the picture. Ask what a constant delay
+# of the odometry does to a robot that drives straight ahead (little), and to one that turns (much,
+# far away).
+
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # **Your turn.** A robot turns by 50° per second, and its odometry reaches the program with an
 # uncorrected latency of 0.1 s. How large is the error of a map point at a distance of 4 m?
@@ -1018,6 +1072,7 @@ compare(displacement, abs(4 * np.exp(1j * np.radians(5)) - 4), tolerance=0.01)
 # the error of the last position be?
 
 # %% slideshow={"slide_type": "fragment"}
+# the error at the end of the recording, mapped in three ways
 MAPPED = {
     "by the library": {},
     "without deskewing": {"deskewed": False},
@@ -1207,9 +1262,12 @@ naive_off, corrected_off = trials.errors(seen_live.pair.estimator, true.poses[-1
 # $$\psi_k = \psi + \frac{k}{32}\,\bigl((\psi' - \psi) \bmod 360^\circ\bigr) - \delta_k \tag{14.9}$$
 #
 # for $k$ from 1 to 32. Here $\delta_k$ is the number in the five lower bits, negative if the top bit
-# is set. In the wrong decoding, offsets are nearly always above 4°, so the top bit is nearly always set.
-# So it
-# rotates nearly every point of the room.
+# is set. In the program the top bit counts 4°. The offsets of our capsules are nearly always above 4°,
+# so their top bit is nearly always set, and the two decodings differ for nearly every point.
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* A good example of two documents of one maker that disagree. Ask for the
+# experiment that decides; part one has it.
 
 # %% slideshow={"slide_type": "subslide"} tags=["folded"]
 from course.studies import published_drivers as printed
@@ -1245,7 +1303,12 @@ views.show(
 # the *pieces* in which bytes arrive differ between computers, so the result must not depend on these
 # pieces.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Ask what a program should do with the last, incomplete message, and how to test
+# that the result does not depend on the pieces.
+
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# a truncated file, and a stream cut into pieces in 20 ways
 left = list(revolutions(parse(raw[: len(raw) * 3 // 5 + 1], "table.rec")))
 same = all(np.array_equal(a.range_mm, b.range_mm) for a, b in zip(left, whole, strict=False))
 print(
