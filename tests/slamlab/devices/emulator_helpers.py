@@ -8,7 +8,7 @@ from slamlab.devices.emulator.in_memory_emulators import InMemoryEmulators
 from slamlab.devices.emulator.lidar_models import lidar_model
 from slamlab.devices.emulator.rplidar_emulator import RPLidarEmulator
 from slamlab.devices.emulator.serial_line import Faults
-from slamlab.devices.errors import PortError
+from slamlab.devices.errors import PortError, SlamlabError
 from slamlab.devices.rplidar import RPLidar
 from slamlab.devices.rplidar.responses import DESCRIPTOR_SIZE, Descriptor
 from slamlab.devices.rplidar.scan_stream import DECODERS
@@ -88,3 +88,10 @@ def nodes(data):
     assert descriptor is not None and descriptor.loop, data[:DESCRIPTOR_SIZE].hex()
     decoder = DECODERS[descriptor.type]()
     return decoder.feed(data[DESCRIPTOR_SIZE:]), decoder
+
+
+def assert_helps(error):
+    """Every error states what, why, and what to do."""
+    assert isinstance(error, SlamlabError)
+    assert error.what and error.cause and error.step
+    assert f"{error.what}. Likely cause: {error.cause}. What to do: {error.step}." == str(error)

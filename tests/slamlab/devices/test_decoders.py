@@ -277,8 +277,7 @@ def test_distances_that_look_like_nodes_do_not_lead_out_of_step(at, lost):
 
 @pytest.mark.parametrize("odd", [0, 7])
 @pytest.mark.parametrize(
-    ("answer", "lost"),
-    [*((AnswerType.EXPRESS, n) for n in (1, 12, 13)), (AnswerType.ULTRA, 2)],
+    ("answer", "lost"), [*((AnswerType.EXPRESS, n) for n in (1, 12, 13)), (AnswerType.ULTRA, 2)]
 )
 def test_lost_capsules_leave_a_gap_and_no_wrong_angles(answer, lost, odd):
     """Twelve capsules are nearly a turn, so that the next one seems to follow."""

@@ -116,10 +116,7 @@ def test_no_more_bytes_come_than_the_line_can_carry(asked):
 
 
 @settings(max_examples=15)
-@given(
-    st.sampled_from(list(SAMPLES)),
-    st.lists(st.floats(0.0005, 0.3), min_size=1, max_size=10),
-)
+@given(st.sampled_from(list(SAMPLES)), st.lists(st.floats(0.0005, 0.3), min_size=1, max_size=10))
 def test_the_bytes_do_not_depend_on_the_polling(asked, pauses):
     lidar, t, k, received = machine(), 2.0, 0, b""
     lidar.feed(asked, t)
