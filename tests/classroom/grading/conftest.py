@@ -3,6 +3,7 @@
 import csv
 import functools
 import json
+import os
 import subprocess
 import sys
 
@@ -12,6 +13,9 @@ from classroom.exercises import catalogue
 from classroom.grading import isolation, sandbox
 from classroom.grading.worker_pool import WorkerPool
 from tests.classroom.grading import fake
+
+HTML = "<script>alert(1)</script><img src=x onerror=y>"
+posix = pytest.mark.skipif(os.name != "posix", reason="folders and rights of POSIX")
 
 
 @functools.cache

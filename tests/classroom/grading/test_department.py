@@ -94,8 +94,7 @@ def regraded(rng, attempts, exercise):
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("students", "exercises"),
-    [(30, SMALL), pytest.param(300, WHOLE, marks=pytest.mark.walk)],
+    ("students", "exercises"), [(30, SMALL), pytest.param(300, WHOLE, marks=pytest.mark.walk)]
 )
 @pytest.mark.parametrize("kind", ["sqlite", "postgresql"])
 @pytest.mark.parametrize("rule", ["last", "best"])

@@ -19,7 +19,6 @@ from classroom.grading.ledger import chain_verification
 from classroom.grading.records import Record
 from tests.classroom.grading import fake
 from tests.classroom.grading.conftest import notebook, slamlab
-from tests.classroom.grading.test_batch import comes_true
 from tests.timeouts import until
 
 LAW = LawResult("twice", "is twice as large", 0.0, 2.0, 3, 20)
@@ -251,8 +250,7 @@ def test_a_database_stopped_during_a_run_is_awaited_without_loss(tmp_path, serve
 
 @pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
 @pytest.mark.parametrize(
-    "kills",
-    [1, pytest.param(4, marks=pytest.mark.slow), pytest.param(20, marks=pytest.mark.soak)],
+    "kills", [1, pytest.param(4, marks=pytest.mark.slow), pytest.param(20, marks=pytest.mark.soak)]
 )
 def test_a_grader_killed_at_any_time_loses_and_duplicates_nothing(tmp_path, kills):
     out, names = tmp_path / "out", class_of(tmp_path / "class", 6 * kills)
@@ -260,7 +258,7 @@ def test_a_grader_killed_at_any_time_loses_and_duplicates_nothing(tmp_path, kill
     for _ in range(kills):
         before = graded()
         grading = grading_of(tmp_path)
-        assert comes_true(lambda: graded() > before or grading.poll() is not None)  # noqa: B023
+        until(lambda: graded() > before or grading.poll() is not None)  # noqa: B023
         time.sleep(rng.uniform(0, 0.2))
         grading.send_signal(signal.SIGKILL)
         grading.communicate()

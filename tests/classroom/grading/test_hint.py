@@ -12,8 +12,8 @@ from classroom.checks import check, hint, hint_levels
 from classroom.exercises.correctness_laws import Law, equals
 from classroom.exercises.time_limit import TimeLimitExceeded
 from tests.classroom.grading import fake
-from tests.classroom.grading.test_failing_cases import SETS, TURN, turn, want
 from tests.classroom.grading.test_judge import judged
+from tests.classroom.grading.turning_task import SETS, TURN, turn, want
 
 SINE = re.compile(r"sine = (\S+)")
 

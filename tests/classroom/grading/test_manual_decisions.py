@@ -12,7 +12,7 @@ from classroom.grading.remarks import COMMENT
 from classroom.grading.term.term import load
 from slamlab.cli import main
 from tests.classroom.grading.conftest import table
-from tests.classroom.grading.test_term import attempt, begin, folder, stored
+from tests.classroom.grading.term_folder import attempt, begin, folder, stored
 
 __all__ = ["begin", "folder"]  # a fixture
 

@@ -9,7 +9,7 @@ from classroom.grading.term.term import load
 from slamlab.cli import main
 from tests.classroom.grading import fake
 from tests.classroom.grading.conftest import notebook
-from tests.classroom.grading.test_term import attempt, begin, folder, match_students, stored
+from tests.classroom.grading.term_folder import attempt, begin, folder, match_students, stored
 
 __all__ = ["begin", "folder"]  # a fixture
 

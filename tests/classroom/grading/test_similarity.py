@@ -91,8 +91,7 @@ def idle(source, rng):
 
 
 @pytest.mark.parametrize(
-    ("how", "id"),
-    [("idle", "04"), *itertools.product(("half", "idle"), ("06", "10", "15"))],
+    ("how", "id"), [("idle", "04"), *itertools.product(("half", "idle"), ("06", "10", "15"))]
 )
 def test_a_half_copied_submission_and_one_with_idle_lines_rank_first(how, id):
     rng = np.random.default_rng(1)
