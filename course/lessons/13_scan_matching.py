@@ -46,6 +46,11 @@ from slamlab.sources import simulation
 # and 15 cm. **Scan matching** computes the motion between the two scans from the scans themselves. (All
 # scans in this lesson are simulated, except in the last section of part two.)
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Let a student align two transparencies (or two windows) by hand before you
+# mention an algorithm, and ask what the hand minimises. Most students expect equal points; sketch one
+# wall hit by beams from two positions.
+
 # %% slideshow={"slide_type": "skip"}
 run = simulation("polygon-wrong", np.random.default_rng(1))
 readings = list(run)
@@ -120,6 +125,11 @@ for name, cloud in clouds.items():
 #
 # This is **rigid alignment**, a form of the orthogonal *Procrustes* problem. Its solution is named after *Kabsch* and *Umeyama*.
 # Three correspondences suffice for the derivation.
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* At the board, show one derivative for the translation and the argument of a
+# complex number for the rotation, and use the cells only as a check. Ask which points determine the
+# angle best: those far from the centroid.
 
 # %% slideshow={"slide_type": "subslide"}
 theta, t_x, t_y = sp.symbols("theta t_x t_y", real=True)
@@ -246,6 +256,11 @@ print("error {:.1f} mm and {:.2f}°".format(*error_of(paired)))
 # gives better correspondences, and so on. One search for correspondences and one alignment form an
 # *iteration*. We run ICP on our two scans:
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* The question is about the difference between what is minimised and what is
+# measured. Write (13.5) with the two inequalities apart, and ask for each which step of the algorithm
+# makes it true.
+
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
 watched = point_to_point(second, first, guess, history=True)
 print("odometry:", in_words(guess))
@@ -367,6 +382,11 @@ compare(overlap, sum(map(bool, tree.query_ball_point(points, 0.03))) / len(point
 # iteration 0 first: where are the lines long, and in which direction does the alignment move the scan?
 # Then continue, iteration by iteration. After that, try a worse heading.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Stop at iteration 0 and let the class predict the direction of the first step
+# from the grey lines. Point at one wall: the components of the lines across the wall move the scan,
+# and the components along it hinder.
+
 
 # %% slideshow={"slide_type": "subslide"} tags=["folded"]
 def state_of(iteration, heading_error):
@@ -410,6 +430,10 @@ shift, turn = 1 - np.divide(error_of(watched.history[1].pose), error_of(guess))
 # the correspondences is small enough. **A change:** stop as soon as the mean length hardly changes in
 # an iteration.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Students want a bound on the error, but ICP does not know the error. If time is
+# short, show only the last two rows of the output.
+
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "13-bound",
@@ -446,7 +470,7 @@ for name, rule in RULES.items():
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="13-bound"
 # A suitable bound is unknown, and both bounds are bad: ICP never reaches 2 mm, and it reaches 50 mm too
-# soon, when most of the rotation is still missing. The change of the mean length shows when further
+# soon, with a heading error of {= error_of(states[first_stop(states, RULES["below 50 mm"])].pose)[1]:.1f =}°. The change of the mean length shows when further
 # iterations hardly help, for any noise. But the tolerance must be small, because ICP converges slowly:
 # with a tolerance of 1 mm ICP stops before the rotation is complete. (The mean length at the end has
 # another use. If it is much larger than expected, ICP has converged to a wrong local minimum.)
@@ -457,6 +481,10 @@ for name, rule in RULES.items():
 # The robot scans the polygon from four poses. We match each scan with the previous scan, with odometry
 # as the initial guess, and compose the matched motions. For comparison we show dead reckoning by
 # odometry alone.
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* The second figure is the one to show: exact odometry, and ICP makes it worse.
+# Let the class look for the cause before the next section gives it.
 
 
 # %% slideshow={"slide_type": "skip"} tags=["folded"]
@@ -525,7 +553,7 @@ views.show(
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="13-right-already"
 # ICP made the map *worse*: the last error is {= by_right["corrected"][0]:.0f =} mm, compared with {= by_wrong["corrected"][0]:.0f =}
-# mm from the wrong odometry. The lower walls of the right map are thicker. So another cause than noise
+# mm from the wrong odometry. Walls at the top and at the bottom of the right map are thicker. So another cause than noise
 # moves the scans away from their true poses.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=9
@@ -537,6 +565,11 @@ views.show(
 #
 # Now we make the problem worse. Many robots have a scanner with a field of view of only 180°. After a
 # turn of −45° a quarter of the second scan shows new walls.
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Point at one fan and follow its lines to the single point at their end. In the
+# table, read the right column against the left one: a small share is best from the truth and worst
+# from a wrong guess.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -617,6 +650,10 @@ for share in (1.0, 0.9, 0.8, 0.7, 0.5, 0.3, 0.1):
 # $b_i$, the residual is
 #
 # $$e_i = n_i^{\mathsf T} (\mathrm{Rot}(\theta)\,a_i + t - b_i). \tag{13.6}$$
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Draw a wall, two points beside each other, and the two residuals; ask which one
+# a shift along the wall changes. Students assume that (13.5) still holds: it does not.
 
 # %% slideshow={"slide_type": "subslide"} tags=["folded"]
 normal = normals(first)
@@ -758,6 +795,10 @@ compare(weight, (rho[1] - rho[0]) / 2e-6 / (2 * residual), tolerance=1e-5)
 # nor down-weights any correspondence. We compare four methods on the same two scans, from the same
 # initial guess:
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* The experiment separates two changes. Ask which row of the table shows the
+# effect of the residuals alone (*bare*), and which the effect of gates and kernel.
+
 # %% slideshow={"slide_type": "fragment"}
 # heading error after each iteration, from the same initial guess, by four methods
 WIDE = {"gate": (1e3, 1e3), "normal_gate": np.pi}  # [m], [rad]
@@ -809,6 +850,7 @@ def errors_of_steps(matcher, lidar, seeds=10):
 
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
+# errors of five matchers in 30 steps, with both fields of view
 medians, nearer = {}, {}
 for width, lidar in {"whole turn": RPLIDAR_A2, "half a turn": ahead}.items():
     for name, matcher in (METHODS | {"match": match}).items():
@@ -839,6 +881,10 @@ print("odometry: median {:.0f} mm, {:.1f}°".format(*np.median(odometry, axis=0)
 # converges to the true motion is its **basin of convergence**. In the next figure, 24 matches start
 # with headings in all directions, and each line is one match. We count a match as *converged to the
 # truth* if it ends within 5 cm and 2° of the true motion.
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Let the class vote twice, once for accuracy and once for the basin: the winner
+# differs. Warn that a difference of a few tries in 24 proves nothing.
 
 
 # %% slideshow={"slide_type": "subslide"} tags=["folded"]
@@ -992,6 +1038,11 @@ for degrees in (0, 30, 60, 120):
 #
 # **Your turn.** Three points lie on the wall ahead, and one on a wall to the right. What is the covariance of
 # the match, if $\sigma$ is 1 cm?
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Ask what is missing from (13.10) before you list it: every error that is not
+# noise of the ranges. The covariance that is computed at a wrong local minimum looks as good as any
+# other.
 
 # %% slideshow={"slide_type": "fragment"} tags=["your-turn"]
 J, sigma = np.array([[1, 0, -1], [1, 0, 0], [1, 0, 1], [0, 1, 2.0]]), 0.01  # [m]
@@ -1166,6 +1217,10 @@ for name, m in {"with the cupboard": hundred[0], "bare": slid[0]}.items():
 # to that of another, checked by hand. The next cell prints the mean errors over the relations between
 # our scans.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Ask why plain ICP may fail here, although it was good enough in the polygon: the
+# scanner covers 180° only. Let the class find a wall that appears twice; it leads to lesson 15.
+
 # %% slideshow={"slide_type": "subslide"} tags=["folded"]
 intel = intel_maps.stored()
 fig, _ = views.side_by_side(
@@ -1226,8 +1281,8 @@ for name in ("odometry", "icp-plain", "icp"):
 # [Lesson 14](14_devices_and_live_slam.ipynb) runs ICP on a live robot;
 # [lesson 15](15_pose_graph_slam.ipynb) closes the loop.
 #
-# **Exercise:** [13 · Scan matching: ICP](../exercises/ex13_scan_matching.ipynb). You write ICP and
-# trimmed ICP, combine odometry and walls in one step, and match two scans that overlap by half.
+# **Exercise:** [13 · Scan matching: ICP](../exercises/ex13_scan_matching.ipynb). You write ICP
+# with and without a robust kernel, combine odometry and walls in one step, and match two scans that overlap by half.
 #
 # The sections below this one are optional.
 
@@ -1246,6 +1301,10 @@ for name in ("odometry", "icp-plain", "icp"):
 # $D = \operatorname{diag}(D_1 \ge D_2 \ge 0)$. $U$ and $V$ are *orthogonal*:
 # their columns are orthonormal, so each of them is a rotation or a reflection. (The three letters have this meaning in this section
 # only.)
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Only needed for 3-D, or if the class knows the SVD from another course. Let the
+# class guess how often the reflection wins; most say never.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # Let $Z = V^{\mathsf T}\, \mathrm{Rot}\, U$, so that $\mathrm{Rot} = V Z U^{\mathsf T}$. A product of orthogonal matrices is
@@ -1296,6 +1355,7 @@ ask(
 )
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="13-mirror"
+# 1000 pairs of scans of one wall: how often is the best matrix a reflection?
 rng, along = np.random.default_rng(7), np.linspace(-1.0, 1.0, 15)
 
 
@@ -1336,6 +1396,7 @@ views.show(fig, "The reflection puts robot and chest behind the wall, the rotati
 # as (13.4) does?
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# is any other rotation better than that of `rigid_fit`, in 1000 random clouds?
 worse = 0
 for p, q in rng.standard_normal((1000, 2, 8, 2)):
     p_c, q_c = p - p.mean(axis=0), q - q.mean(axis=0)
@@ -1351,7 +1412,12 @@ print(f"in {worse} of 1000 random clouds another angle has a smaller cost")
 # which may fall, reach a minimum and rise again. Near its minimum the mean length hardly changes. Did
 # the rule stop any of our 60 runs too early?
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Ask for a rule that cannot stop too early: stop when no correspondence changes.
+# Ask for its price.
+
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# where does the rule stop the 60 runs?
 early = []
 for states in runs:
     k = first_stop(states, RULES["change below 0.001 mm"])
@@ -1379,3 +1445,7 @@ print(f"at most {early.max():.0f} mm before it")
 # where $\Gamma$ is the derivative of $\gamma$ with respect to the pose $x$ (the Hessian of the cost).
 # With equal, independent noise in the residuals, (13.14) is the same as (13.10).
 # `match(...).covariance` returns (13.14).
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* The formula is the implicit function theorem; a class that knows it needs only
+# one line. Compare with (13.10) by asking which two assumptions are dropped.
