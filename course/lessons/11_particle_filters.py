@@ -188,6 +188,11 @@ compare(left_half, np.histogram(particles.rows[:, 0], [-9, 0], weights=particles
 # places are farther away. (The opposite place never comes closer than {= opposite_to_post.min():.2f =}
 # m.) With 10 000 particles, both modes exist until then. Now we use 200 particles on the same run.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* The tempting answer is that the wrong mode disappears. Before the vote, ask
+# which measurement so far speaks against it; afterwards compare with drawing balls from an urn and
+# putting back copies of those drawn.
+
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "11-few",
@@ -204,6 +209,7 @@ ask(
 )
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="11-few"
+# 100 sets of 200 particles, after 10 steps
 few = [film(200, seed, steps=10)[-1] for seed in range(100)]
 at_robot = np.array([near(particles, truth) for particles, truth in few])
 opposite = np.array([near(particles, -truth) for particles, truth in few])
@@ -254,6 +260,11 @@ views.show(fig, f"The robot is found with {shown} of the runs; the intervals are
 # odometry noise. Suppose that the heading of a robot is known only with $\sigma = 0.5$ rad, and that it
 # drives 3 m. We move 1500 particles in the same way.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Let a few students say where 95 of 100 robots are before they see the picture.
+# Then reduce `heading_sigma` to 0.1: the ellipse is nearly right again, so the fault is the size of
+# the error and not the Gaussian as such.
+
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "11-banana",
@@ -273,6 +284,7 @@ ask(
 
 
 # %% slideshow={"slide_type": "subslide"} answers="11-banana"
+# particles after 3 m, and their share in the EKF's ellipse
 def after_3_m(heading_sigma, particles):
     """Particles after 3 m, the EKF's covariance, and the share of the particles in its ellipse."""
     rng, sigmas = np.random.default_rng(11), np.array([0.05, 0.05, heading_sigma])
@@ -301,6 +313,8 @@ def banana(heading_sigma, particles):
     return fig
 
 
+share = after_3_m(0.5, 1500)[2]
+
 # %% slideshow={"slide_type": "subslide"} answers="11-banana"
 views.explore(
     banana,
@@ -311,7 +325,6 @@ views.explore(
     heading_sigma=(0.02, 1.5, 0.5),
     particles=(10, 3000, 1500),
 )
-share = after_3_m(0.5, 1500)[2]
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="11-banana"
 # The particles form an arc (often called a *banana*). The EKF's ellipse touches the arc where the
@@ -333,6 +346,10 @@ share = after_3_m(0.5, 1500)[2]
 # the probability of each motion, and the likelihood of the measurement in each room. By the Markov
 # assumption (lesson 03) the motion depends only on the previous room, and the measurement only on the
 # room in which it is made. So the three factors multiply:
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* If you keep this section, let the class enumerate the four cases at the board,
+# and cover the two that end in room 1. The integral in (11.3) is the same sum.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 before = dict(zip("12", sp.symbols("Bel_1 Bel_2", positive=True), strict=True))
@@ -372,6 +389,11 @@ case["12"], sp.factor(case["12"] + case["22"]) / total
 # divided by the proposal density. The method requires $q > 0$ wherever $\pi > 0$. If a factor of $\pi$
 # is unknown, as in (11.3), divide by $\sum_i w_i$ instead of $n$.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Show the four proposals first and the definition afterwards. The narrow proposal
+# is the memorable case: all 500 estimates agree, and all are wrong. Most students who answer the
+# question on the rare motion wrongly count the motion twice.
+
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # How accurate is the estimate? As an example, we estimate the probability that a standard Gaussian
 # variable exceeds 3. Let $a(x)$ be 1 where $x > 3$, and 0 elsewhere. We compute 500 estimates from each
@@ -406,6 +428,7 @@ def on_a_line(proposal_mean, proposal_sigma):
 
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# 500 estimates from each of four proposals
 print(f"true: {norm.sf(3):.5f}\nproposal    mean estimate    σ of an estimate   estimates of 0")
 error_of = {}
 for mean, sigma in ((0, 1), (3, 1), (0, 3), (0, 0.5)):
@@ -500,6 +523,7 @@ w_before * target / proposal
 # weight is also multiplied by the density of the motion.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="11-weight"
+# two particle filters and two Kalman filters, with the same measurements
 zs = rail.measured(seed=1)
 estimates = {}
 for rule in (rail.RIGHT, rail.TWICE):
@@ -547,7 +571,13 @@ compare(w_new, ParticleSet(np.zeros((3, 2)), w_old).reweighted(np.log(l))[0].wei
 # With $n$ equal weights it is $n$; if one particle has the whole weight, it is 1. The next cell moves
 # and weights 1000 particles on the rail twelve times, without any resampling:
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Students expect a better sensor to help in every filter. Move `range_sigma` from
+# 30 cm to 1 cm and watch the number of visible particles; ask what a real program does with a very
+# accurate lidar (fewer beams, or a larger σ than the true one).
+
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# 1000 particles, twelve steps without resampling
 rng = np.random.default_rng(2)
 x, w = rng.normal(0, 1, 1000), np.full(1000, 1 / 1000)
 for step, z in enumerate(zs, start=1):
@@ -647,7 +677,12 @@ compare(n_eff, observed(0.1, 500)[0].effective_sample_size)
 # independent measurements are multiplied. Suppose that an accurate sensor (5 cm, 1°) observes twenty
 # landmarks, and that three particles are half a metre from the true pose. What are their weights?
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Ask what 0/0 becomes in the program before you show the remedy. The trick that
+# subtracts the maximum is the one that students meet again in machine learning (softmax).
+
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# log-likelihoods, likelihoods and weights of three particles
 rng = np.random.default_rng(4)
 places, R_fine = rng.uniform(-8, 8, (20, 2)), np.diag([0.05, np.radians(1)]) ** 2
 z = models.h(np.zeros(3), places) + rng.multivariate_normal([0, 0], R_fine, 20)
@@ -685,6 +720,11 @@ print("all lower by 100 000", normalise(logs - 1e5)[0].round(4))
 # - **systematic resampling** (also *low-variance resampling*) uses $n$ positions at equal distances,
 #   and *one* random number that shifts all of them.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Let the class count the copies of particle 0 while you shift the systematic
+# positions. A common error is the belief that systematic resampling is biased because it draws only
+# one random number.
+
 
 # %% slideshow={"slide_type": "subslide"} tags=["folded"]
 w8 = np.array([0.28, 0.05, 0.17, 0.02, 0.12, 0.21, 0.04, 0.11])
@@ -718,6 +758,7 @@ views.explore(
 # particle with a large weight can be lost.
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
+# copies of each particle by both methods, in 4000 draws
 variance = {}
 for name, draw in {"multinomial": multinomial, "systematic": systematic}.items():
     rngs = (np.random.default_rng(seed) for seed in range(4000))
@@ -771,6 +812,11 @@ compare(variances, binom(8, w8).var())
 # > 5. *Resample* if $n_{\mathrm{eff}} < n/2$: draw $n$ particles, $x_i$ with the probability $w_i$; then $w_i \leftarrow 1/n$.
 # >
 # > *Output:* particles and weights; as a point estimate their weighted mean, if there is only one mode
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Let the class find the step that makes the filter different from a histogram
+# filter, and the step that may be left out at times. Point at the error and the σ in the output: with
+# 1000 particles the filter is far too confident.
 
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output", "code"]
@@ -890,6 +936,7 @@ views.show(fig, f"The robot is relocalised {shown} of the runs.")
 # remain:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# how many different particles remain while the robot stands still?
 rng = np.random.default_rng(9)
 mcl, left = MCL(ParticleSet.unweighted(rng.normal(0, [0.3, 0.3, 0.1], (1000, 3))), CORNERS, rng), {}
 for scan in range(1, 61):
@@ -922,6 +969,10 @@ print(f"effective sample size {mcl.particles.effective_sample_size:.0f}")
 # $10 \cdot 10 \cdot 10$ particles, because every combination of its three components needs its own
 # particle. Each further component increases the number by a factor of ten. With ten landmarks the state
 # has 23 components, which need $10^{23}$ particles.
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Ask for the number of particles of a map with ten landmarks before you show
+# $10^{23}$. In the animation, point at one cross: its particle set shrinks beside it.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # The MAK thesis avoids this with its algorithm 2: *one particle set for the robot, and an independent
@@ -994,6 +1045,10 @@ views.explore(
 # straight ahead with $\sigma = 5$ cm, and the landmark's set is created from this measurement. From
 # then on the two sets are separate.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Act it with two students who are tied together by a rope of fixed length: both
+# may stand anywhere, but together. Exchanging the partners removes the rope.
+
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "11-forget",
@@ -1010,6 +1065,7 @@ ask(
 )
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="11-forget"
+# 5000 poses with the landmarks that they initialised, and with random partners
 rng = np.random.default_rng(13)
 poses = rng.normal(0, [0.3, 0.3, 0.0], (5000, 3))
 landmark = models.g(poses, np.array([2.0, 0.0]) + rng.normal(0, [0.05, 0.02], (5000, 2)))
@@ -1071,6 +1127,10 @@ outside = {name: 100 * maps[name]["outside"][0] for name in maps if "outside" in
 #
 # As published, algorithm 2 resamples *every* set in *every* step, whether the landmark is observed or not. Consider a
 # landmark that is out of view for a long time: all its particles keep the same weight.
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* This is the loss of a mode again, now with positions instead of modes. Ask why
+# an unbiased procedure can still ruin a single run.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -1149,6 +1209,11 @@ views.explore(
 # closed form is called a **Rao–Blackwellised particle filter**. If **each particle's map** consists of
 # small EKFs, which linearise, the filter is called **FastSLAM**. No cross-covariance is stored: the
 # correlations are contained in the *differences* between the particles and their maps.
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Students look for the covariance between two landmarks and do not find it. Ask
+# how it could be computed from the particles. If time is short, leave out the box of the algorithm
+# and keep the table.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # > **Algorithm: FastSLAM 1.0** (Montemerlo et al. 2002; *Probabilistic Robotics*, table 13.1), known data association
@@ -1245,6 +1310,10 @@ for name in (sets.EKF, sets.SETS, *sets.FAST.values()):
 # density and then weighted by it again, so the filter uses its square. What is the square of a
 # Gaussian?
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Ask how one could find this error in a program without the Kalman filter as a
+# reference: the estimate is plausible, only the σ is too small.
+
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 q, Q = sp.symbols("q Q", positive=True)
 density = sp.exp(-(q**2) / (2 * Q))
@@ -1269,6 +1338,10 @@ sp.simplify(density**2 / density.subs(Q, Q / 2))
 # variances add up to a geometric series, which gives (11.10). For two particles we can check (11.12)
 # exactly, because there are only four possible draws:
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* The two-particle case is short enough for the board: two of the four draws lose
+# a particle.
+
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 one, other = sp.symbols("x_1 x_2", real=True)
 draws = [(one, one), (one, other), (other, one), (other, other)]
@@ -1281,6 +1354,10 @@ sp.simplify(sum(variances_of) / 4 / variances_of[1])
 # The MAK thesis has another solution against drift: if *all* particles of a landmark are close
 # together, their mean is treated as the true position from then on. The landmark becomes a point, and a
 # point cannot drift. But which distance should be the threshold?
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Ask what the filter claims about a frozen landmark (a variance of zero), and
+# which measurement could correct it (none).
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 print(HEAD)
@@ -1308,8 +1385,13 @@ for name in (sets.SETS, *sets.FROZEN.values()):
 # Here $z_{1-\delta}$ is the quantile of the standard Gaussian. (The formula approximates the $\chi^2$ quantile with $k - 1$ degrees of
 # freedom, divided by $2\varepsilon$.) The formula gives an **adaptive number of particles** in every step. We use bins of 0.5 m, 0.5 m and 15°.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Students often take $n$ from (11.13) as a guarantee that the robot is found. It
+# bounds one draw; the loss of a mode is an effect of many.
+
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# bins with particles in the run of the first section, and n by (11.13)
 def kld_sample_size(k, epsilon=0.05, delta=0.01):
     a = 2 / (9 * (k - 1))
     return (k - 1) / (2 * epsilon) * (1 - a + np.sqrt(a) * norm.isf(delta)) ** 3
@@ -1366,6 +1448,10 @@ print(f"both modes after 10 steps: {both.sum():.0f} of 20; found: {found_by_kld.
 # and likewise $w_{\mathrm{fast}}$. The filter replaces the share
 # $\max(0,\, 1 - w_{\mathrm{fast}} / w_{\mathrm{slow}})$ of the particles by random particles
 # (*Probabilistic Robotics*, table 8.3).
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* The result is worth showing: in this room the adaptive rule relocalises the
+# robot less often than a constant share. Ask in which environment it would be better.
 
 
 # %% slideshow={"slide_type": "fragment"} tags=["folded"]
@@ -1441,6 +1527,11 @@ compare(replaced, replaced_share(slow, fast, w))
 # $\ell_i = \sum \ln\bigl((1-\gamma)\, e^{-d^2/2\sigma^2} + \gamma\bigr)$ over all beams (*Probabilistic
 # Robotics*, section 6.4).
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Point at the steps in the curve of ray casting, and ask what a beam does when
+# the particle moves past the edge of a table leg. Two rooms that share a thin wall show what the
+# field ignores.
+
 # %% slideshow={"slide_type": "fragment"}
 # a room with table legs, its distance transform on a grid of 5 cm, and a scan of 60 beams
 room, SIDE, pose = worlds.by_name("table-legs"), 0.05, np.array([0.0, -0.5, 0.4])
@@ -1454,6 +1545,7 @@ scan = Scanner(beams=60, range_error=0, range_sigma=0.03).scan(room, pose, np.ra
 
 
 # %% slideshow={"slide_type": "subslide"}
+# the log-likelihood of the scan from a pose, by the field and by ray casting
 def log_likelihood(d, sigma=0.1, false_share=0.1):
     return np.log((1 - false_share) * np.exp(-(d**2) / (2 * sigma**2)) + false_share).sum()
 

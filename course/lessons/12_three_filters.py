@@ -63,6 +63,10 @@ from slamlab.sources.arena_runs import SETS, data_set
 # We simulate this robot, so every number in this lesson comes from the simulation. We chose the slip of
 # the wheels, because the thesis does not state the slip.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Hold up a ruler of 28 cm: this is all that the robot sees. Students who know
+# lidars answer the noise question with a proportional σ, as in many lidars' data sheets.
+
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Triangulation: a sensor that measures an angle
 #
@@ -168,6 +172,11 @@ views.show(fig, "The robot in an arena of boxes measures short pieces of the two
 #
 # $$x = \int_0^1 d \cos(t\, \Delta\theta)\, dt, \qquad y = \int_0^1 d \sin(t\, \Delta\theta)\, dt. \tag{12.3}$$
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Students answer 90° because they think of the heading at the end. Let a student
+# walk a quarter circle and point back at the start. The exercise treats the case 0/0, so do not show
+# a solution.
+
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "12-chord",
@@ -249,6 +258,10 @@ views.explore(
 # The right panel uses only the log: we compose the odometry motions, and draw every scan at the
 # resulting pose.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Play only the right panel first, and let the class describe the arena from it.
+# The section can be told in two minutes.
+
 
 # %% slideshow={"slide_type": "subslide"} tags=["folded"]
 def replayed(scan):
@@ -285,6 +298,10 @@ views.explore(
 # them with a lidar of 400 beams that reaches 12 m. Here a scan contains only ten to thirty points of
 # each wall.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Take guesses before you repeat the reach of the sensor. The number matters
+# later: with a corner in every third scan, a wrong association is not corrected soon.
+
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "12-corners",
@@ -301,6 +318,7 @@ ask(
 )
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="12-corners"
+# the corners found in all scans, compared with the true corners
 with_found = with_corners(first_run)  # the readings, with the corners found in their scans
 found = [reading.observations for reading in with_found]
 arena = np.unique(first_run.world.walls.reshape(-1, 2).round(9), axis=0)  # its true corners
@@ -360,6 +378,10 @@ views.show(
 # We take one run on which the rule fails. The figure shows the map that EKF-SLAM (MAK) builds from this
 # run, and all scans, drawn at the estimated poses.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* In the table, change one thing at a time and let the class predict the row. The
+# conclusion "a larger $R$ is always safer" is wrong: the first three rows show no gain at all.
+
 # %% slideshow={"slide_type": "fragment"} tags=["folded"]
 other = data_set(246)
 corners = with_corners(other)
@@ -380,6 +402,7 @@ def map_of(slam, source, readings):
 
 
 # %% slideshow={"slide_type": "subslide"}
+# EKF-SLAM with corners compared by position, or by bisectors as well
 def mapped(bisector, times_R):
     return map_of(FILTERS["MAK"](other), other, modified_corners(corners, bisector, times_R))
 
@@ -401,6 +424,7 @@ views.explore(
 # enlarge $R$?
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
+# false associations by each rule, on the same run
 false = {}
 for bisector in (False, True):
     for times in (1, 2, 4):
@@ -446,6 +470,7 @@ ask(
 )
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="12-promise"
+# scans in which the robot is outside its box, in all trials
 table = stored("filter_comparison")
 free, snagged, own = (table["many"][kind] for kind in ("free", "snagged", "own_association"))
 runs = free["odometry"]["runs"]
@@ -466,6 +491,7 @@ assert safe_box["scans_outside"] == 0 and own_box["runs_outside"] == runs == 80
 # scans. With MAK's association the box always contained the robot.
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
+# each filter with its own association and with MAK's, on the same runs
 rows, gain = [], {}
 for name in OWN_ASSOCIATION:
     alone, by_mak = own[name], free[name]
@@ -509,7 +535,13 @@ Markdown("\n".join([head, "|---" * 6 + "|", *rows]))
 #   association (lesson 09). It uses other measurements than the other filters, and it can relocalise
 #   the robot after a slip. So a comparison with `walls` does not compare filters alone.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Let the class rank the filters here and write the ranking down; the tables of
+# the findings decide. Point out that `walls` uses other measurements, so it does not take part in the
+# ranking.
+
 # %% slideshow={"slide_type": "subslide"}
+# all estimators on the first log
 readings_by_mak = associated_by_ekf(first_run, with_found)
 slams, film, paths = {}, {}, {}
 for name, make in FILTERS.items():
@@ -570,6 +602,11 @@ views.explore(
 # from the bounds of the steps and one from the bound of the path. Neither bound is certain:
 # each holds only with some probability.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Reduce $k$ until the robot leaves the box, and read the title: does the filter
+# report it? Students believe that a fault must show itself; the column *of these reported* shows that
+# with wider boxes it does not.
+
 
 # %% slideshow={"slide_type": "subslide"} tags=["folded"]
 def bounded(k, whole_path):
@@ -613,6 +650,7 @@ views.explore(
 # with several values of $k$ on all runs.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# the box filter on all runs, by the bound k
 rows = []
 for k, row in table["many"]["bounds"].items():
     if box := row["box"]:
@@ -657,6 +695,7 @@ ask(
 )
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="12-report"
+# the box of 4.5 σ and the tuned box, without the slip and with it
 slipped = snagged["BOR, 4.5 σ"]["box"]
 print(f"robot outside the box of 4.5 σ in {slipped['runs_outside']} of {runs} runs,", end=" ")
 print(f"reported in {slipped['runs_outside_reported']} of these")
@@ -680,6 +719,11 @@ for name in ("BOR, 4.5 σ", "BOR, tuned"):
 # the region of a Gaussian contains the true pose if the NEES of the pose, $e^{\mathsf T} P^{-1} e$, is
 # at most {= chi2.ppf(0.95, 3):.2f =}, the 95 % quantile of $\chi^2$ with three degrees of freedom. For
 # a particle set we take the Gaussian that has the mean and the covariance of its weighted particles.
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* After the boxes, the class expects the probabilistic filters to be better in
+# this respect. Let them guess all rows before the table, and ask what a path planner does with a 95 %
+# region that misses the robot in nearly every scan.
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **Your turn.** The next cell computes the error and the covariance of MAK's last pose on the first
@@ -717,6 +761,7 @@ ask(
 )
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="12-region"
+# shares of scans in which the pose is outside the 95 % region
 regions = stored("filter_consistency")["filters"]
 rows = [
     f"| {name} | {100 * one['outside_mean']:.0f} % | {percent(one['outside_median'])} | "
@@ -757,6 +802,11 @@ Markdown("\n".join([head, "|---" * 4 + "|", *rows]))
 # two poses, the error of one motion is $\ominus m_i \oplus \hat m_i$, and the RPE over $k$ steps is the
 # root mean square of its length. The RPE needs no alignment, and shows how fast the error grows.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* The row of odometry is the point: best over one scan, and nearly the worst over
+# a lap. Ask which of the two numbers a manufacturer would print. The definition of *lost* is ours;
+# let the class find a run that it misjudges.
+
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # **Your turn.** Below are the true motion over the second lap and the motion that odometry measured. Compute the
 # length of the error of this motion, in metres. `between(a, b)` is the motion $\ominus a \oplus b$.
@@ -782,6 +832,7 @@ compare(length, relative_error(*two_poses).translation)
 # </details>
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
+# ATE and RPE of all estimators on the first run
 true_path = first_run.truth
 rows = []
 for name, poses in paths.items():
@@ -838,7 +889,13 @@ views.show(
 # table is the ATE (absolute trajectory error) of a run in centimetres. The first row is the first run
 # of this lesson.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Ask each student for a guess of the interval before the formula; nearly
+# everybody guesses too narrow an interval. (12.6) is solved in the exercise, so show only its
+# meaning.
+
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# the ATE of every estimator in the six data sets [cm]
 names = list(FILTERS)
 
 
@@ -913,6 +970,11 @@ print(f"no loss in five runs, if 15 % are lost: {100 * binom.pmf(0, 5, 0.15):.0f
 #
 # Influences that increase the errors of both filters equally make the covariance large, and cancel out
 # in the difference. Comparing two filters by such differences is called a **paired comparison**.
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Cover the title of the figure and ask whether the dots lie below the line; only
+# then uncover the interval. Let a student who believes that overlapping intervals mean "no
+# difference" explain the last line of the output.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # **Your turn.** `C` is the 2 × 2 covariance matrix of the ATE of the box of 4.5 σ and of odometry, over
@@ -1012,8 +1074,13 @@ too_few = [n for n in range(6, 41) if paired_difference(pair[0][:n], pair[1][:n]
 # If the confidence interval contains zero, the finding is *undecided*; otherwise the interval confirms
 # or refutes it.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Before each table, let the class state which interval would confirm, refute or
+# leave open the finding. *Undecided* is a result, and the hardest one to accept.
+
 
 # %% slideshow={"slide_type": "fragment"}
+# the verdict on a finding, from a confidence interval
 def verdict(interval, even, above, below):
     """The conclusion from an interval: above, below, or undecided if it contains ``even``."""
     _, low, high = interval
@@ -1023,6 +1090,7 @@ def verdict(interval, even, above, below):
 grows = {n: verdict(free[n]["lap_3_minus_lap_1_m"], 0, "grows", "falls") for n in names}
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
+# the error after each lap, and the verdict
 rows = []
 for n in names:
     laps = " | ".join(f"{100 * lap[0]:.1f}" for lap in free[n]["laps_m"])
@@ -1089,6 +1157,7 @@ ask(
 )
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="12-back"
+# strayed runs, and how many of them are lost
 counts = {n: (free[n]["runs_lost"], free[n]["runs_strayed"]) for n in names}
 for n, (_, strayed) in counts.items():
     print(
@@ -1141,6 +1210,10 @@ assert free["Monte Carlo"]["lost"][1] > 0.05 and snagged["walls"]["lost"][2] < 0
 # ## The verdicts on the findings
 #
 # The next cell computes every verdict from the stored table.
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Ask which verdict would change with another arena. Do not read the table as a
+# criticism of the thesis: its author wrote himself that six runs are too few.
 
 # %% slideshow={"slide_type": "fragment"} tags=["folded", "nbval-check-output"]
 meaning = {"grows": "refuted", "falls": "confirmed", "nearer": "confirmed", "farther": "refuted"}
@@ -1200,7 +1273,7 @@ Markdown(
 # sections below this one are optional.
 #
 # **Exercise:** [12 · Three filters on one robot](../exercises/ex12_three_filters.ipynb). You compute a
-# motion from encoder ticks, find the scan from which a run is lost, solve (12.6), compare two filters
+# motion from encoder ticks, compute the ATE and the RPE, solve (12.6), compare two filters
 # on the same runs, and write a filter that relocalises itself.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
@@ -1210,7 +1283,13 @@ Markdown(
 # `v` with respect to the nearest corner of the map, and the innovation
 # covariance `S`, which contains the covariances of pose and landmark and their cross-covariance.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Let the class predict whether the distance grows or falls if the
+# cross-covariance is left out of $S$. It depends on the sign of the correlation, so it is a good
+# argument for computing it.
+
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# the innovation of one corner, and its covariance
 slam, k = FILTERS["MAK"](first_run), 353
 for reading in with_found[:k]:
     slam.step(reading)
@@ -1255,7 +1334,12 @@ compare(distance_2, squared_distances(mak, z, R)[0, i])
 #
 # The next cell runs `walls` on data set 6, and prints all warnings of a slip:
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Point at the false warning at the beginning: a filter that acted on the first
+# suspicion would have left a good map. Ask what fifteen scans mean in centimetres.
+
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# run `walls` on data set 6, and print its warnings
 again, printed = data_set(*SETS[-1]), []
 slam = FILTERS["walls"](again)
 print(f"snagged at scan {again.snag}; warns after {SUSPICIOUS} scans, acts after {MIN_SCANS}")
@@ -1283,6 +1367,10 @@ for k, reading in enumerate(again):
 # $\theta + \gamma$ and turns by $(T V/B) \sin\gamma$. To arrive at the end of the arc, it needs
 # $\gamma = \Delta\theta/2$ and $T V = L$. Then its wheelbase must be
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* A quick exercise in checking a model: which motion of the real robot can the
+# model not make? Turning on the spot.
+
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 L = 2 * d * sp.sin(turn / 2) / turn
 B = sp.simplify(L * sp.sin(turn / 2) / turn)
@@ -1299,6 +1387,10 @@ B, sp.limit(B, turn, 0)
 # Monte Carlo freezes a landmark to a point once all of its particles lie within 5 cm of their mean.
 # Freezing saves time. But the point is the mean of an uncertain set, and the filter treats this point
 # as exact from then on. Does freezing reduce the accuracy?
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Let the class decide, from the two lines of output, whether to freeze. The ATE
+# decides by an interval; the lost runs do not.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 never, frozen = free["Monte Carlo, never frozen"], free["Monte Carlo"]
@@ -1319,6 +1411,10 @@ assert verdict(freezing, 0, "worse", "better") == "better"
 # In each scan one corner is in view, the map contains $N$ corners, and each filter associates the
 # corner before its update. The study measured processor times, in units of BOR's time for the smallest
 # map.
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* The slopes in a doubly logarithmic plot are the exponents: let the class read
+# them at both ends of MAK's curve.
 
 # %% slideshow={"slide_type": "fragment"} tags=["folded"]
 cost = table["cost"]
