@@ -56,6 +56,10 @@ from slamlab.scanmatching import point_to_line
 # metric on a SLAM with a single error: it measures *one* turn with an error of a few degrees, and all
 # other motions correctly.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Let the class defend the ATE first, then move `at` and read both numbers of the
+# title aloud. The usual misconception is that a smaller number means a better SLAM.
+
 # %% slideshow={"slide_type": "fragment"}
 world = generate_world(WORLD_FAMILIES["plain"], np.random.default_rng([16, 0]), 30.0)
 truth, metres = world.truth.poses, world.metres
@@ -174,6 +178,10 @@ compare(e_ij, [*between(compose(poses[i], between(truth[i], truth[j])), poses[j]
 # receives one reading after the other, as your SLAM will. A later section uses two more variants of
 # `icp`.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Ask what each length measures before the figure: the noise of one match, the
+# drift, the loop. Point at the curves of both versions of `graph`: they separate only at the right.
+
 
 # %% slideshow={"slide_type": "fragment"} tags=["code"]
 class Ablated(IcpSlam):
@@ -215,8 +223,8 @@ ask(
 
 
 # %% slideshow={"slide_type": "subslide"} answers="16-lengths"
+# mean relative pose error over a length, in each building
 def errors_over(length, name):
-    """Mean relative pose error over a length, in each building (k,) [m]."""
     found = []
     for arena, own in zip(arenas, runs, strict=True):
         poses, true = own[name].trajectory, arena.world.truth.poses
@@ -269,6 +277,10 @@ views.show(
 # The score uses samples of the walls every 10 cm, and counts at most one point in each cell of 5 cm, so
 # copies of a point have no effect.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Offer the class to cheat: which map has recall 1 without a measurement? After
+# the answer, let them design a better metric, and cheat again. The *Your turn* cell can be left out.
+
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "16-map",
@@ -284,6 +296,7 @@ ask(
 
 
 # %% slideshow={"slide_type": "subslide"} answers="16-map"
+# recall and precision of a map, and four maps of the first building
 def recall_and_precision(points):
     """Recall and precision of a map of the first building; the points lie in different cells."""
     recall = np.isfinite(cKDTree(points).query(seen, distance_upper_bound=ON_WALL)[0]).mean()
@@ -334,6 +347,7 @@ compare(score, map_score(graph_map, seen, all_walls), tolerance=0.02)
 # the trajectory of `graph` get in the first building with different maps?
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output", "nearly"]
+# points of the same trajectory with three maps
 back = between(aligned(graph.trajectory, arenas[0].world.truth.poses), np.zeros(3))
 for name, points in {
     "no map": np.empty((0, 2)),
@@ -359,6 +373,11 @@ print(f"{'its own map':20} {arenas[0].judge(graph).points:5.1f} points of 100")
 # true trajectory is moved so that its first pose is your first pose, and $e = x - x^*$ contains the
 # differences in $x$, $y$ and $\theta$ along the axes of this frame, with the angle wrapped. The mean
 # NEES is 3 if $e$ has mean zero and the covariance $P$, because a pose has three components.
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Students answer 6, because half sounds like twice. In the figure, compare the
+# distances from 1 on both sides: overconfidence costs points sooner than caution. Stress that a run
+# is about one sample.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -527,6 +546,7 @@ views.show(
 # many samples from the sample, with replacement. How often do both intervals contain the true mean?
 
 # %% slideshow={"slide_type": "fragment"} answers="16-paired" tags=["nbval-check-output", "nearly"]
+# how often do t and bootstrap intervals contain the true mean?
 rng = np.random.default_rng(0)
 for size in (5, 30):
     samples = rng.standard_normal((4000, size))  # the true mean is 0
@@ -580,7 +600,12 @@ compare(t, ttest_rel(without, with_loops).statistic)
 # lacks one part. The **distance gate** of `icp` rejects correspondences whose points are too far apart;
 # its **normal gate** rejects correspondences whose walls have different directions.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Ask which rows of the table differ in one part only. The usual, wrong answer is
+# `icp` and `graph`.
+
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output", "nearly"]
+# errors of all variants, and the effect of each missing part
 print(f"{'':>22} {'1 m':>7} {'5 m':>7} {'20 m':>7}   map")
 for name in NAMES:
     found = [a.judge(own[name]).measures for a, own in zip(arenas, runs, strict=True)]
@@ -610,6 +635,10 @@ for name in VARIANTS:
 #
 # Suppose that you try many versions that are all equally good. Their scores still differ by chance,
 # because the worlds are random. You choose the version with the best score, and report this score.
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* A demonstration without a computer: everybody tosses a coin six times, and the
+# best "predictor" explains the method. If time is short, leave out the correlated scores.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -642,6 +671,7 @@ ask(
 
 
 # %% slideshow={"slide_type": "fragment"}
+# the bias of the best score, in a simulation
 def luck_of_best(versions, worlds, correlation, students=1000, spread=15.0):
     """The bias of the best score among equally good versions, for each student [points].
 
@@ -731,6 +761,10 @@ compare(bias, luck_of_best(50, 25, 0.8, students=4000).mean(), tolerance=0.06)
 #    lost scans its initial guess may be too inaccurate. In both cases, use odometry for this step.
 # 5. **Close loops** with a pose graph, and return its poses in `trajectory()`.
 # 6. **Report a covariance** at the end, when your errors no longer change.
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Let the class order the steps before they are shown. For the project, insist on
+# the first one: most time is lost with corrections of errors that nobody has looked at.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Typical faults
