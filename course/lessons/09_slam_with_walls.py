@@ -57,7 +57,13 @@ ORIGIN = [[0, 0, 0.4, 0], [0, 0, 0, 0.4]]  # the axes of the world
 # one irregular room with a slanted wall. The robot has a lidar with a range error of 1 % (σ), and wheels
 # that slip a little, at random.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* The median counts, not the picture: its run ends near its start by chance. Let
+# the class find in the left panel where the heading error is largest, and why the end hardly shows
+# it.
+
 # %% slideshow={"slide_type": "fragment"}
+# both simulated tours, dead reckoning, and a stored table of 60 runs
 sources = {
     name: simulation(name, np.random.default_rng(1)) for name in ("situation-1", "situation-2")
 }
@@ -133,6 +139,10 @@ views.show(
 # Why do new lines not enter the map at once? A line can be a **false measurement**, that is, a
 # measurement that does not come from a landmark: for example, a line fitted to a round pillar or to a
 # person. All false measurements together are called **clutter**.
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Point at the grey boxes of the figure: what the filter discards limits what it
+# can correct later. If time is short, show only the table and the figure.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # The class `WallLoop` of `course.studies` implements this small system, and its step has the structure
@@ -244,6 +254,11 @@ compare(numbers_in_P, different)
 # *observed*, and the world's origin may lie on the other side of the wall. Do not reverse the normal,
 # because (09.1) also holds for negative $\rho$.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Demonstrate the question with a long rod as the wall: it stays 2 m in front of a
+# person (the robot) and turns with the person, and its distance from a mark on the floor (the
+# origin), 5 m to the side, changes. Students who choose "only α" read ρ as a distance from the robot.
+
 # %% slideshow={"slide_type": "subslide"}
 ask(
     "09-pivot",
@@ -337,10 +352,15 @@ compare(sigma_rho, sigma_by_J)
 # between them, so the pieces enter the map as two landmarks. Later the robot enters the room, and both
 # pieces grow until they touch.
 #
-# Now the filter has to combine the two landmarks to one. This step is called **landmark merging** (also
+# Now the filter has to combine the two landmarks into one. This step is called **landmark merging** (also
 # *landmark fusion*). No sensor measures that two landmarks are equal, but the filter can process this
 # information like a measurement (lesson 06) of the difference $\Delta = l_j - l_i$, with the value
 # zero.
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Many students want a large $R$ because the decision may be wrong. Separate the
+# two steps: the test (09.4) decides, and after the decision the information is certain. Ask against
+# which mistake each of the three conditions protects.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -374,6 +394,7 @@ ask(
 # which two pieces of one wall fail in 1 % of the cases, if $P$ is correct and the errors are Gaussian.
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="09-merge"
+# initialise two pieces of one wall and a door, then merge the pieces
 mak = MAK(np.zeros(3), np.diag([0.02, 0.02, 0.01]) ** 2, kind=LINES)
 R_PIECE = np.diag([0.01, 0.01]) ** 2
 mak.add(["left", "right"], [[2.0, 1.57], [2.03, 1.56]], R_PIECE)
@@ -425,8 +446,13 @@ compare(P_merged, expected)
 # Now the robot drives both tours with the system. We store the estimated pose, its covariance and the
 # map after each step. Guess first: how large will the position error be, compared with dead reckoning?
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Students take the small error of the pose as a proof of consistency. The map of
+# situation 2 is the counterexample: it is overconfident although the pose is not.
+
 
 # %% slideshow={"slide_type": "fragment"}
+# both tours with the system: poses, covariances and maps after each step
 poses, P, maps, loops = {}, {}, {}, {}
 for name, source in sources.items():
     loops[name] = WallLoop(source)
@@ -594,8 +620,14 @@ negative = {name: int(np.sum(loop.mak.landmarks()[:, 0] < 0)) for name, loop in 
 #
 # Try to make the robot's pose uncertain. In which corner of the building is this easiest?
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* The ellipse is mostly too small to be seen: ask why, before you look for a place
+# where it grows. Let a student steer while the class predicts in which direction the ellipse will be
+# long.
+
 
 # %% slideshow={"slide_type": "fragment"}
+# the simulations of the buttons, and the curve of the error
 def error_of(pair):
     """Error of the estimated position now [cm]."""
     return 100 * np.hypot(*(pair.estimator.pose - pair.source.truth.poses[pair.count - 1])[:2])
@@ -636,6 +668,11 @@ seen_live = live.watch(
 # of the perpendicular from the world's origin? Every wall has a foot point, which can be computed from
 # the measured line and the pose. The filter of lesson 06 can use its range and bearing as a
 # measurement. Smolec's program uses foot points in this way.
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Before the vote, let one student walk along a wall of the hall and point at the
+# foot point of that wall, seen from a fixed origin: it does not move. The word *zero* sounds good to
+# the class; ask what a filter concludes from an innovation that is always zero.
 
 # %% slideshow={"slide_type": "subslide"} tags=["folded"]
 fig, (ax,) = views.panels([None], (9, 4.4))
@@ -756,6 +793,8 @@ ask(
 
 # %% slideshow={"slide_type": "fragment"} answers="09-corridor" tags=["folded"]
 runs_in_corridor = cache(corridor.simulate_runs)  # each of 15 runs, lines or foot points
+line_runs, foot_runs = (runs_in_corridor(15, measured, 0.01, False) for measured in (True, False))
+at_the_end = runs_in_corridor(15, False, 0.01, True)
 
 
 def in_the_corridor(slip_in_cm, wall_at_the_end):
@@ -785,8 +824,6 @@ views.explore(
     slip_in_cm=(0.2, 3.0, 1.0),
     wall_at_the_end=False,
 )
-line_runs, foot_runs = (runs_in_corridor(15, measured, 0.01, False) for measured in (True, False))
-at_the_end = runs_in_corridor(15, False, 0.01, True)
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="09-corridor"
 # With $(\rho, \alpha)$ the error and $\sigma$ grow together, like the error of odometry: they are
@@ -813,6 +850,10 @@ at_the_end = runs_in_corridor(15, False, 0.01, True)
 #
 # Rooms have walls in more than one direction. Are foot points less harmful there? We simulated both
 # tours with 60 seeds, and all estimators used the same readings.
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Compare the columns of the median and of the worst run. In situation 1 a paper
+# that reported only the median would call foot points an improvement over odometry.
 
 
 # %% slideshow={"slide_type": "fragment"} tags=["folded", "nbval-check-output"]
@@ -871,6 +912,10 @@ Markdown("\n".join(rows))
 #   from the *old* pose; the motion is predicted afterwards.
 # - **Placed before prediction:** new walls, too, are initialised from the old pose.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Let each student write a ranking before the table appears. Most put the degrees
+# first, because 57 is a large factor; ask which faults change $P$ only and which change the map.
+
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "09-harm",
@@ -925,9 +970,10 @@ Markdown("\n".join(rows))
 # walls enter the map twice. A wall placed from the old pose has a more serious effect. Its position was
 # never measured, so the map itself is wrong, and each update fits the pose to the wrong map.
 #
-# The other rows have these faults: *infinite lines* ignores the ends of walls; *first found* uses the
-# first wall within the gate, not the nearest; with *new at first observation*, lines enter the map at
-# once; in addition, the lines of *windows* are not grown.
+# The other rows have these faults. *Infinite lines*: the association ignores the ends of walls. *First
+# found*: it uses the first wall within the gate, not the nearest. *New at first observation*: lines
+# enter the map at once. *Windows, first observation*: in addition, a line is fitted only to the
+# readings of a RANSAC window, not to all readings of the wall (lesson 08).
 
 
 # %% slideshow={"slide_type": "fragment"} tags=["folded"]
@@ -992,6 +1038,11 @@ by_gate = {
 # {= 100 * step_at_most[0]:.0f =} cm or turns by up to {= np.degrees(step_at_most[2]):.0f =}°. The
 # sensor measures lines from the *current* pose.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Point at the two numbers of the output: no line is associated during the turns,
+# yet the error at the end is small. Ask which figure would have shown the fault in a code review:
+# none, but the share of associated lines does.
+
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "09-order",
@@ -1052,6 +1103,11 @@ for name, (share, heading) in shares.items():
 # the pose of the filter is set to the mean and covariance of the particles. How large is the position
 # error at the end of situation 2, without relocalisation and with it?
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Ask how a filter can notice the slip at all: its own innovations stay small,
+# because it initialises new walls instead of updating old ones. The number of new walls in a known
+# place is the symptom.
+
 
 # %% slideshow={"slide_type": "fragment"} tags=["folded", "nbval-check-output"]
 def after_slip(slam, relocalise, turned=0.5):
@@ -1097,6 +1153,11 @@ for relocalise, (error, count_of_walls) in slipped.items():
 # **Other sensors.** `WallSlam` can use the lines of any sensor. In a *Deeper* section below, an
 # ultrasonic sensor measures the walls of a room.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Ask for an environment in which this filter would fail at once: a forest, a
+# round hall, a crowd. The section can be skipped if the exercise is discussed, since its three
+# objects show the same.
+
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Literature
 #
@@ -1136,6 +1197,10 @@ for relocalise, (error, count_of_walls) in slipped.items():
 # far. With a grid of cells 60 mm wide it is enough to search nine cells: the cell of the point and the
 # eight around it.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Ask why three points fit into a cell, and not four: points in the four corners
+# are exactly 60 mm apart, and the rule asks for more.
+
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 thinned = DownsampledPoints(0.06)
 for points, pose in zip(scans["situation-2"], room.truth.poses, strict=True):
@@ -1164,7 +1229,12 @@ print(f"{views.grouped(offered)} points offered, {len(thinned.xy)} drawn, at mos
 #
 # with the normal density $\varphi$. Its *gain* is the rate at which $-\psi$ grows with $e$.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* For a class that knows M-estimators. The surprise is the sign: the band that
+# follows the line makes the estimate less accurate than the number of inliers suggests.
+
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
+# the integral, its derivative, and the variance of a reading's contribution
 c, noise, e = sp.symbols("c varepsilon e", positive=True)
 density = sp.exp(-(noise**2) / 2) / sp.sqrt(2 * sp.pi)
 psi = sp.integrate((noise - e) * density, (noise, e - c, e + c))
@@ -1205,6 +1275,10 @@ for name in sources:
 #
 # A round tower of 1.5 m radius stands beside the robot's path. Move the robot, and observe which lines
 # are found.
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Move the robot slowly past the tower and let the class follow one green line: it
+# moves along with the robot. Ask what an EKF concludes about the robot's motion.
 
 
 # %% slideshow={"slide_type": "fragment"} tags=["folded"]
@@ -1250,6 +1324,10 @@ views.explore(
 # Otherwise the nearest point is the intersection of the cone's edge and the wall:
 #
 # $$ r(\beta) = \frac{\rho}{\cos u}, \qquad |u| = \max(0, |\beta - \alpha| - \delta). \tag{09.7} $$
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Students take the flat arcs of the echoes for walls. Draw the cone at the board,
+# and move it past the foot of the perpendicular: the range is constant as long as the foot is inside.
 
 # %% slideshow={"slide_type": "subslide"}
 SONAR, half_cone = ULTRASONIC.model, ULTRASONIC.model.half_cone
@@ -1345,6 +1423,7 @@ views.explore(
 # Guess first: without any limit, which share of the lines lies on no wall?
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# false lines by the least rise, and echoes by the angle of incidence
 sound = stored("ultrasound_walls")
 print(f"{sound['seeds'][1] + 1} runs, at true poses")
 for row in sound["slopes"]:
@@ -1371,6 +1450,7 @@ for row in sound["incidences"]:
 # largest error, odometry alone, RANSAC or the cone model?
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# odometry, RANSAC's lines and the cone model: medians over the runs
 rows = ["| landmarks | RMS error | more than odometry | better in |", "|---" * 4 + "|"]
 runs_of_it = sound["seeds"][1] + 1
 for name, row in sound["drives"].items():
