@@ -11,10 +11,14 @@ from classroom.exercises.correctness_laws import Diagnosis, equals
 
 EXACT = 1e-8
 """Tolerance of a derivative, relative to the largest entry."""
+ROUNDED = 3e-14
+"""Tolerance of :func:`rounded`, relative to the largest coordinate or entry: 130 roundings."""
 ORIGIN = np.array([7.1e5, 9.3e6])
 """A surveyor's easting and northing [m]."""
 FAR = 1e6
 """Distance of walls from the origin [m]: their lines turn about it."""
+FARTHEST = 1e9
+"""Distance [m] along a normal α = 0: x sin α is exactly 0, but differences of any order fail."""
 NAME = "surveyors' coordinates"
 
 
@@ -45,6 +49,29 @@ def corrections(name, points, says, want, **more):
     )
 
 
+def rounded(law, want):
+    """Require of a derivative, besides a law, that it has no larger errors than those of rounding.
+
+    Coordinates near the origin leave no room for the errors of a difference quotient."""
+
+    def holds(inputs, outputs):
+        largest = [_largest(array) for array in inputs.values()]
+        right = want(inputs)
+        exact = [
+            _largest(outputs[name] - right[name])
+            <= ROUNDED * np.maximum.reduce([*largest, _largest(right[name])])
+            for name in law.want(inputs)
+        ]
+        return law.holds(inputs, outputs) & np.logical_and.reduce(exact)
+
+    return replace(law, holds=holds)
+
+
+def _largest(array):
+    """Return the largest magnitude of each row."""
+    return np.abs(array.reshape(len(array), -1)).max(axis=1, initial=0.0)
+
+
 def differences(want, on=NAME):
     """Create the diagnosis of outputs that are right but for rounding, on the probe ``on``."""
 
@@ -56,9 +83,9 @@ def differences(want, on=NAME):
 
     return Diagnosis(
         "differences",
-        "Your result is nearly right, but not exact if coordinates or headings are large. Finite "
-        "differences have such rounding errors. Derive formulas of the derivatives; subtract "
-        "positions from each other before you multiply them.",
+        "Your result is nearly right, but not exact if numbers are very large or small. Finite "
+        "differences have such errors. Derive formulas of the derivatives; subtract positions "
+        "from each other before you multiply them.",
         nearly_right,
         on,
         asks="How many digits of a coordinate of 500 km does a float keep, and how many of them "

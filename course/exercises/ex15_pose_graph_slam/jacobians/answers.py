@@ -99,6 +99,22 @@ def jacobians(x_i, x_j, z):
 
     return slope(lambda v: error(v, x_j, z), x_i), slope(lambda v: error(x_i, v, z), x_j)
 
+# %% wrong: central differences of the unwrapped error, with exact steps of a power of two
+def jacobians(x_i, x_j, z):
+    def e(x_i, x_j):
+        a = x_i[2] + z[2]
+        d = x_j[:2] - x_i[:2]
+        return np.array([
+            np.cos(a) * d[0] + np.sin(a) * d[1],
+            np.cos(a) * d[1] - np.sin(a) * d[0],
+            x_j[2] - x_i[2],
+        ])
+
+    H = 2.0**-17 * np.eye(3)
+    A = [(e(x_i + h, x_j) - e(x_i - h, x_j)) * 2.0**16 for h in H]
+    B = [(e(x_i, x_j + h) - e(x_i, x_j - h)) * 2.0**16 for h in H]
+    return np.array(A).T, np.array(B).T
+
 # %% wrong: B with the identity for its rotation
 def jacobians(x_i, x_j, z):
     t = x_i[2] + z[2]

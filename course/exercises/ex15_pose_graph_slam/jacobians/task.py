@@ -3,11 +3,12 @@
 import numpy as np
 
 from classroom.exercises.correctness_laws import equals
+from classroom.exercises.function_calls.run_and_pack import MAIN
 from classroom.exercises.references import Reference
 from classroom.exercises.task import Probe, Task
 from course.exercises.ex15_pose_graph_slam.calls import CALLS
 from course.exercises.ex15_pose_graph_slam.edges import PROBES, edges
-from course.exercises.surveyed import EXACT, NAME, differences, surveyed
+from course.exercises.surveyed import EXACT, NAME, differences, rounded, surveyed
 from slamlab.posegraph.edge_jacobians import J_i, J_j
 
 
@@ -22,6 +23,12 @@ def _far(rng):
 def _sides(inputs):
     angle = inputs["x_i"][:, 2] + inputs["z"][:, 2]
     return {"θ_i + θ_z": angle, "p_j − p_i": (inputs["x_j"] - inputs["x_i"])[:, :2]}
+
+
+def _derived(name, points, says, asks):
+    parts = {name: np.s_[:]}
+    law = equals(name, points, says, _wanted, parts=parts, tolerance=EXACT, asks=asks, step=_sides)
+    return rounded(law, _wanted)
 
 
 def _parts(inputs, outputs):
@@ -41,30 +48,22 @@ JACOBIANS = Task(
     inputs=edges,
     shapes={"A": (None, 3, 3), "B": (None, 3, 3)},
     laws=(
-        equals(
+        _derived(
             "A",
             3,
             "A is ∂e/∂x_i",
-            _wanted,
-            parts={"A": np.s_[:]},
-            tolerance=EXACT,
             asks="Which terms of e contain θ_i, and what are their derivatives?",
-            step=_sides,
         ),
-        equals(
+        _derived(
             "B",
             2,
             "B is ∂e/∂x_j",
-            _wanted,
-            parts={"B": np.s_[:]},
-            tolerance=EXACT,
             asks="Suppose that pose j moves 1 cm to the east. Which motion is this in the frame "
             "of x_i ⊕ z?",
-            step=_sides,
         ),
     ),
     probes=(*PROBES, Probe(NAME, _far)),
-    diagnoses=(differences(_wanted),),
+    diagnoses=(differences(_wanted), differences(_wanted, MAIN)),
     parts=_parts,
     begins=(
         "Write the three components of e with x, y and θ of both poses.",

@@ -115,6 +115,19 @@ def range_edge(x_i, x_j, r, a_i, a_j):
     B = [(e(x_i, x_j + h) - e(x_i, x_j - h)) / 2e-6 for h in H]
     return e(x_i, x_j), np.array(A), np.array(B)
 
+# %% wrong: central differences, positions subtracted first, with exact steps of a power of two
+def range_edge(x_i, x_j, r, a_i, a_j):
+    def e(x_i, x_j):
+        (ci, cj), (si, sj) = np.cos([x_i[2], x_j[2]]), np.sin([x_i[2], x_j[2]])
+        d = x_j[:2] - x_i[:2]
+        d = d + [cj * a_j[0] - sj * a_j[1], sj * a_j[0] + cj * a_j[1]]
+        return np.hypot(*(d - [ci * a_i[0] - si * a_i[1], si * a_i[0] + ci * a_i[1]])) - r
+
+    H = 2.0**-17 * np.eye(3)
+    A = [(e(x_i + h, x_j) - e(x_i - h, x_j)) * 2.0**16 for h in H]
+    B = [(e(x_i, x_j + h) - e(x_i, x_j - h)) * 2.0**16 for h in H]
+    return e(x_i, x_j), np.array(A), np.array(B)
+
 # %% wrong: e and Jacobians in another order
 def range_edge(x_i, x_j, r, a_i, a_j):
     rot = lambda t: np.array([[np.cos(t), -np.sin(t)], [np.sin(t), np.cos(t)]])

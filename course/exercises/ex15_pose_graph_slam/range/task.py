@@ -3,10 +3,11 @@
 import numpy as np
 
 from classroom.exercises.correctness_laws import equals
+from classroom.exercises.function_calls.run_and_pack import MAIN
 from classroom.exercises.task import Probe, Task
 from course.exercises.ex15_pose_graph_slam.calls import CALLS
 from course.exercises.ex15_pose_graph_slam.edges import sized
-from course.exercises.surveyed import EXACT, NAME, differences, surveyed
+from course.exercises.surveyed import EXACT, NAME, differences, rounded, surveyed
 from slamlab.geometry import wrap
 
 COUNT = 14
@@ -126,23 +127,26 @@ RADIO = Task(
             step=_way,
         ),
         *(
-            equals(
-                name,
-                2,
-                f"{name} is ∂e/∂x_{pose}",
+            rounded(
+                equals(
+                    name,
+                    2,
+                    f"{name} is ∂e/∂x_{pose}",
+                    _wanted,
+                    parts={name: np.s_[:]},
+                    tolerance=EXACT,
+                    asks="In which direction does a radio move if its robot turns on the spot, and "
+                    "what is the component of this motion along d?",
+                    step=_way,
+                    after=("e",),
+                ),
                 _wanted,
-                parts={name: np.s_[:]},
-                tolerance=EXACT,
-                asks="In which direction does a radio move if its robot turns on the spot, and "
-                "what is the component of this motion along d?",
-                step=_way,
-                after=("e",),
             )
             for name, pose in (("A", "i"), ("B", "j"))
         ),
     ),
     probes=PROBES,
-    diagnoses=(differences(_jacobians),),
+    diagnoses=(differences(_jacobians), differences(_jacobians, MAIN)),
     parts=_parts,
     may_round=_promised,
     begins=(
