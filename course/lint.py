@@ -207,7 +207,7 @@ def _first_and_last_cell(source):
     if not source.cells:
         return
     first = source.cells[0]
-    last = main_line(source.cells)[-1]
+    last = [cell for cell in main_line(source.cells) if cell.slide != "notes"][-1]
     title = heading(first.text) if first.type == "markdown" else None
     if source.kind == "appendix":
         if not title:

@@ -30,7 +30,10 @@ def with_links(source, last):
         )
         return [*cells, Cell("markdown", line, "ways", cells[-1].line, {})] if line else cells
     line = _line(("Exercise ", exercise, "../exercises/"), ("on to lesson ", following, ""))
-    place = [k for k, cell in enumerate(main_line(cells)) if cell.type == "markdown"][-1]
+    texts = [
+        k for k, c in enumerate(main_line(cells)) if c.type == "markdown" and c.slide != "notes"
+    ]
+    place = texts[-1]
     cells[place] = _longer(cells[place], line)
     return cells
 

@@ -18,6 +18,10 @@
 # The cell looks for Python and for every package that the course needs. If a package is missing, the cell
 # prints what to do.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-is-everything-installed"
+# *For the lecturer:* Most failures come from a JupyterLab that was not started by `python lab.py`. Ask
+# everybody to raise a hand when all lines have a tick, and begin only then.
+
 # %% name="setup-check"
 from classroom.checks import setup_check
 
@@ -38,6 +42,10 @@ setup_check.report()
 # Try it. A lidar stands in a room, turns once, and measures 400 distances, one every 0.9°. On average only one
 # in 200 beams gets no return, because that beam meets a black or shiny surface. Run the next
 # cell, type a number, and press *answer*.
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-how-a-lesson-works"
+# *For the lecturer:* Insist that everybody writes down a number before you run the cell. Ask why 397 is not a
+# wrong prediction either: the number of lost beams is random, with a standard deviation of $\sqrt 2$.
 
 # %% name="ask-beams"
 from classroom.checks import ask, compare
@@ -118,6 +126,7 @@ views.show(
 
 
 # %% name="first-slider"
+# draw the room, and the scan of a lidar at x, y
 def look(x, y):
     """The room, and the scan of a lidar at x, y."""
     seen = RPLIDAR_A2.scan(room, [x, y, 0.0], np.random.default_rng(7))
@@ -157,6 +166,10 @@ views.explore(
 # If a law is broken, you see the smallest input that breaks it, what your function returned, and
 # what the law requires. If the check recognises a mistake, it reports this.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-how-an-exercise-works"
+# *For the lecturer:* Show one failing check in exercise 01: change a sign in a function, and read the report
+# of the check aloud. If time is short, skip the second slide.
+
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Checks, hints, points
 #
@@ -180,6 +193,10 @@ views.explore(
 # | points | one per row, `(n, 2)` | one per column |
 #
 # Devices and files use other units. The program converts these units once, where it reads the data.
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-conventions"
+# *For the lecturer:* Let everybody point with an arm: ahead is $x$, to the left is $y$, and a positive turn
+# goes to the left. Students who know compasses or computer graphics expect clockwise angles.
 
 # %% slideshow={"slide_type": "subslide"} name="frames"
 views.show(
@@ -269,6 +286,10 @@ compare(direction, np.degrees(np.arctan2(4.5 - 1.0, 5.0 - 2.5)))
 # [Glossary](glossary.ipynb) lists the terms. With the cursor after a name in a cell, **Shift+Tab**
 # shows its documentation.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-the-symbols-of-the-first-lessons"
+# *For the lecturer:* Do not read the table aloud. Let two students act out $a \oplus b$, and ask in whose
+# frame $b$ is given.
+
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=2 name="map-of-lessons"
 # ## Map of the lessons
 #
@@ -282,6 +303,10 @@ compare(direction, np.degrees(np.arctan2(4.5 - 1.0, 5.0 - 2.5)))
 # | 05 | [Localisation and mapping, apart](05_localisation_and_mapping.ipynb) | EKF localisation in a known map, mapping with known poses, and why two EKFs in turn are not consistent | 60 min | 60 min |
 # | 06 | [EKF-SLAM: the MAK filter](06_ekf_slam.ipynb) | robot and map in one EKF: every block of its covariance derived, and a loop closed | 60 min | 60 min |
 # | 07 | [Correlations, consistency and cost of EKF-SLAM](07_correlations.ipynb) | why the correlations of robot and landmarks cannot be dropped, what they cost, and sparser alternatives | 90 min | 60 min |
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-map-of-the-lessons"
+# *For the lecturer:* State which lessons your course uses and when. Lessons 03 to 06 build on each other, so
+# none of these four can be left out.
 
 # %% [markdown] slideshow={"slide_type": "subslide"} name="map-of-lessons-2"
 # | no. | lesson | subject | time of the lesson | of the exercise |
@@ -314,6 +339,10 @@ compare(direction, np.degrees(np.arctan2(4.5 - 1.0, 5.0 - 2.5)))
 # your progress
 # in its tasks and questions. The next cell shows your progress in all notebooks. The command `slamlab progress`
 # in a terminal shows it, too.
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-your-progress"
+# *For the lecturer:* Students often ask whether the lecturer sees their answers. Nobody sees them before the
+# students hand in a notebook.
 
 # %% name="progress"
 from classroom import coursework

@@ -37,6 +37,11 @@ from slamlab.simulation.differential_drive import arc
 # its own coordinate system, the **robot frame** (also *body frame*). The origin of this frame is the middle
 # between the two wheels, its $x$ axis points ahead, and its $y$ axis points to the left.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-odometry-poses-and-frames"
+# *For the lecturer:* Collect guesses in metres before you show the question. Students usually conclude from
+# 0.3 % of wheel size that the position is wrong by 0.3 %. In the figure, point at the beginning of the lap,
+# where both trajectories still coincide.
+
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Readings
 #
@@ -157,6 +162,10 @@ views.show(
 # it by a $B$ of only 30 cm. (Lesson [02](02_sensors_and_worlds.ipynb) returns to such a robot, which
 # is called a *differential drive*.)
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-the-heading-error-of-unequal-wheels"
+# *For the lecturer:* Roll two coins of different size, joined by a pencil as their axle, over the desk: they
+# drive an arc. Students tend to forget the division by $B$, so ask what a wider robot would change.
+
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # **Your turn.** The left wheel rolls 19 cm and the right one 21 cm, and the wheels are 30 cm apart.
 # By how many radians does the heading change?
@@ -218,6 +227,10 @@ print(f"in the run above the heading at the end was off by {np.degrees(gap[2]):.
 #
 # which is the position part of (01.1). The library computes $p$ with `transform(pose, points)`. A wrong pose
 # puts all points of its scan in the wrong place.
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-a-map-from-poses-and-scans"
+# *For the lecturer:* Let the class transform one point by hand, first the rotation and then the shift; the
+# opposite order is the usual mistake. If time is short, skip the *Your turn*.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # **Your turn.** Place the points of `scan`, the scan of reading 100, in the world frame, from the pose
@@ -297,6 +310,11 @@ views.show(
 #
 # An error that repeats in every step is a *systematic error* (also *bias*).
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-systematic-errors-and-calibration"
+# *For the lecturer:* Draw both laps on the board as polygons before the question: Ada's sides are too long,
+# Ben's corners are not right angles. Ask what a *negative* difference of Ben's wheels does, and then move the
+# slider below zero.
+
 # %% slideshow={"slide_type": "subslide"} name="ask-closes"
 ask(
     "01-closes",
@@ -313,6 +331,7 @@ ask(
 )
 
 # %% slideshow={"slide_type": "subslide"} name="wheels-slider"
+# perfect odometry, and both systematic errors added to it
 increments = between(truth[:-1], truth[1:])  # perfect odometry
 lengths = np.hypot(increments[:, 0], increments[:, 1])
 
@@ -395,6 +414,10 @@ compare(calibrated, between(truth[:-1], truth[1:]))
 #
 # The 2 % and the 1° are standard deviations. The errors are independent, and their means are zero.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-random-errors-how-drift-grows"
+# *For the lecturer:* Most students who choose 4 have the systematic errors in mind. Ask whether the errors of
+# two steps can cancel. If you leave out this section, leave out the next two as well.
+
 # %% slideshow={"slide_type": "subslide"} name="ask-growth"
 ask(
     "01-growth",
@@ -414,6 +437,7 @@ ask(
 
 
 # %% slideshow={"slide_type": "fragment"} name="spread" answers="01-growth"
+# end positions of robots that aim straight ahead and make random errors
 def straight_runs(distance, length_error, heading_error, rng, robots=2000, step=0.5):
     """End positions of robots that aim straight ahead: (robots, 2), along and across [m]."""
     n = round(distance / step)
@@ -446,6 +470,10 @@ for distance in (5, 20, 80):
 #
 # For the **heading**, we consider a single error first. The error rotates the whole rest of the trajectory
 # about the point where the error occurs, as if the rest were a rigid body.
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-the-variance-of-the-position-after-n-ste"
+# *For the lecturer:* Turn a long ruler a little about its beginning, and then about a point near its end. Ask
+# when the tip moves more: (01.5) adds such a turn for each step.
 
 # %% slideshow={"slide_type": "subslide"} name="ask-bends"
 ask(
@@ -542,6 +570,10 @@ compare(factors, [each[5] / each[1] for each in theory.values()])
 # the distance: the end positions form an arc, because a robot that has veered to one side has advanced less
 # along the line. Then set the heading error to 0 and increase the length error.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-the-distribution-of-the-end-position"
+# *For the lecturer:* Ask before you drag: is the arc bent towards the start or away from it? Lesson 04
+# replaces this arc by an ellipse, so let the class describe its shape in words.
+
 
 # %% name="cloud" tags=["folded"]
 def end_positions(distance_in_metres, heading_error_in_degrees, length_error_in_percent):
@@ -570,9 +602,9 @@ views.explore(
 
 # %% [markdown]
 # Over 30 m, heading errors with a σ of 1.5° per step cause a standard deviation of
-# {= straight_runs(30, 0, np.radians(1.5), rng)[:, 1].std():.1f =} m across the line. Length errors with a σ of
-# as much as 20 % of a step cause only {= straight_runs(30, 0.2, 0, rng)[:, 0].std():.1f =} m along it. An
-# ellipse does not describe an arc well; lessons 04 and 11 return to this shape.
+# {= straight_runs(30, 0, np.radians(1.5), np.random.default_rng(1), 800)[:, 1].std():.2f =} m across the line.
+# Length errors with a σ of as much as 20 % of a step cause only
+# {= straight_runs(30, 0.2, 0, np.random.default_rng(1), 800)[:, 0].std():.2f =} m along it. An ellipse does not describe an arc well; lessons 04 and 11 return to this shape.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## Scan matching corrects the odometry
@@ -585,6 +617,11 @@ views.explore(
 # An *estimator* is a program that computes poses and a map from readings. The estimator `icp` matches scans: it
 # starts from the odometry and corrects the motion until the walls coincide. Lesson
 # [13](13_scan_matching.ipynb) explains how. We give it the same readings as before.
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-scan-matching-corrects-the-odometry"
+# *For the lecturer:* Before the table appears, ask in which direction a bare corridor does not determine the
+# motion. Point at the first row of numbers: *ahead*, `icp` is no better than odometry. These cells take
+# longest, so run them before the lecture.
 
 # %% slideshow={"slide_type": "subslide"} name="ask-cure"
 ask(
@@ -674,6 +711,10 @@ for name, (ahead, side, heading) in zip(("odometry", "icp"), per_step, strict=Tr
 # log, but you get the points of two maps that we computed from it: one by dead reckoning, and one by `icp` with
 # the same settings as above.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-a-real-robot-the-intel-data-set"
+# *For the lecturer:* Give the class a minute to find a wall that appears twice. Ask how far apart in time the
+# two visits were. Students call the right map good; it is right in each room, but not as a whole.
+
 # %% slideshow={"slide_type": "subslide"} name="ask-again"
 ask(
     "01-again",
@@ -755,6 +796,10 @@ views.show(
 # **Read next:** Hugh Durrant-Whyte and Tim Bailey, *Simultaneous localization and mapping: part I*,
 # IEEE Robotics & Automation Magazine, 2006.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-literature"
+# *For the lecturer:* The method of Borenstein and Feng measures the errors of a robot like Ben's from laps in
+# both directions. With a real robot it is a good student project.
+
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=1
 # ## What comes next
 #
@@ -764,6 +809,10 @@ views.show(
 #
 # Then [02 · Sensors, odometry and simulated worlds](02_sensors_and_worlds.ipynb) examines the scans: what a
 # sensor measures in a room, and what errors these measurements have.
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-what-comes-next"
+# *For the lecturer:* Close with one question: why does a wall appear twice, although every scan is good?
+# Everybody should be able to answer it in one sentence.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Deeper: the Intel log on your own computer
@@ -775,3 +824,7 @@ views.show(
 #     slamlab run intel --estimator icp --out intel-map
 #
 # With `--estimator graph` the second command runs the estimator of lesson 15, which closes loops.
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-deeper-the-intel-log-on-your-own-compute"
+# *For the lecturer:* The download needs a network, and both commands take a while. Run them before the
+# lecture if you want to show the maps.

@@ -16,12 +16,7 @@
 # *For the lecturer:* Part one is geometry, parts two and three are statistics and motion. If time is
 # short, leave out "Motion distortion" and "The covariance of wheel odometry". Students remember the end of part
 # two best, where the data of a real device show its principle of measurement. These polls work well: the wall
-# behind the sensor, the forgotten minus sign, the three errors of a wheel. For "Three frames", use your body:
-# you are the robot, and your outstretched left arm is the sensor. Ask the class for the direction of the wall
-# while you turn. Give "Steps in the ranges" enough time. Students may ask whether the method of this section
-# can be
-# trusted. The simulated `RPLIDAR_A2` has no coarse steps: its neighbouring values are mostly a millimetre
-# apart, both at 3 m and at 7 m.
+# behind the sensor, the forgotten minus sign, the three errors of a wheel.
 
 # %% slideshow={"slide_type": "skip"} name="imports" tags=["folded"]
 from dataclasses import replace
@@ -67,6 +62,11 @@ real = rplidar_a2_noise.stored()  # statistics of a real lidar, for part two
 # beam and wall meet, the two points are the same:
 #
 # $$ r\,n = p_1 + \tau\,(p_2 - p_1). \tag{02.1} $$
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-ray-casting-one-beam-one-wall"
+# *For the lecturer:* The usual misconception is that the formula alone decides whether a beam meets a wall.
+# Turn the beam away from the wall "behind" and ask for the sign of $r$ before anybody reads the label. If
+# time is short, skip the outputs of sympy and show (02.2).
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Two equations, two unknowns
@@ -164,6 +164,11 @@ views.explore(
 #
 # where $\mathrm s$ stands for the sensor frame, the list becomes a set of points.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-a-scan-ranges-over-bearings"
+# *For the lecturer:* Draw the axes of $r$ over $\beta$ on the board, and let a student draw the wall before
+# the poll; most draw a straight line. Then ask in which direction the left plot will shift when the robot
+# turns.
+
 # %% slideshow={"slide_type": "subslide"} name="ask-arc"
 ask(
     "02-arc",
@@ -227,10 +232,9 @@ views.explore(
 #
 # Two beams that are a small angle $\Delta\beta$ apart hit the wall $r\,\Delta\beta / \cos\iota$ apart.
 # With 400 beams this is {= 1000 * 3 * np.radians(0.9):.0f =} mm on a wall 3 m ahead, but
-# {= 100 * 8 * np.radians(0.9) / np.cos(np.radians(70)):.0f =} cm on a wall 8 m away at $\iota = 70°$. Set the
-# slider to 40 beams: some walls get only two or three points, too few to find the ends of these walls. The
-# upper end of the slider is 3600 beams. Smolec's thesis, one of the sources of this course, simulates this
-# number.
+# {= 100 * 8 * np.radians(0.9) / np.cos(np.radians(70)):.0f =} cm on a wall 8 m away at $\iota = 70°$. With 40
+# beams some walls get only two or three points, too few to find the ends of these walls. Smolec's thesis, one of
+# the sources of this course, simulates 3600 beams.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # **Your turn.** A long wall stands 3 m ahead ($\alpha = 0$). Compute its range at each bearing `beta`.
@@ -265,6 +269,10 @@ compare(ranges, World([(3, -20, 3, 20)]).cast((0, 0), beta))
 # p = \begin{pmatrix} x \\ y \end{pmatrix} + \mathrm{Rot}(\theta)\, p_{\mathrm r}. \tag{02.5} $$
 #
 # One transformation with the sensor's pose in the world frame, $x \oplus b$, gives the same result.
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-three-frames-sensor-robot-world"
+# *For the lecturer:* Use your body: you are the robot, and your outstretched left arm is the sensor. Ask the
+# class for the direction of the wall while you turn.
 
 # %% slideshow={"slide_type": "subslide"} name="mounted" tags=["nbval-check-output", "code"]
 mount = np.array([0.2, 0.0, np.pi / 2])  # 20 cm ahead of the middle, faces left
@@ -342,6 +350,10 @@ views.explore(
 # converts units in several places, it may convert a value twice. So the library converts them in one place,
 # where it receives the readings:
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-units-and-signs-of-a-device"
+# *For the lecturer:* Ask who could notice the mistake in a single scan, and let the class invent a test that
+# finds it. (The robot turns on the spot between two scans.)
+
 # %% slideshow={"slide_type": "fragment"} name="robot-frame" tags=["nbval-check-output", "code"]
 angles, ranges = robot_frame(angle_deg=[0.0, 90.0, 270.0], range_mm=[1500.0, 800.0, 0.0])
 print(np.degrees(angles), "degrees,", ranges, "m")
@@ -405,6 +417,10 @@ views.explore(
 # The left plot draws all points of a scan from the pose of its first beam; the right plot draws each point from
 # the pose of its own beam:
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-motion-distortion"
+# *For the lecturer:* If time is short, leave out this section. Otherwise set the speed to zero and keep the
+# rotation: the class sees that rotation distorts the far walls most.
+
 
 # %% slideshow={"slide_type": "subslide"} name="motion" tags=["folded"]
 def scan_in_motion(v, omega, turn_time=0.1):
@@ -459,6 +475,10 @@ views.explore(
 # Before we examine a real device, we make a **first guess** of its sensor model, with round numbers for an
 # RPLIDAR A2. The model has noise in the range and in the direction of each beam, and *dropouts*, beams without
 # a return. Part two tests this guess on data.
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-part-two-systematic-and-random-errors"
+# *For the lecturer:* Students confuse the two kinds. Ask for the kind of error of a ruler with a worn end, of
+# a trembling hand, and of a clock that is five minutes fast.
 
 # %% slideshow={"slide_type": "fragment"} name="guess" tags=["nbval-check-output", "code"]
 guess = Scanner(beams=400, range_error=0.004, bearing_sigma=np.radians(0.1), dropouts=0.03)
@@ -559,6 +579,10 @@ views.explore(
 # Let the noise $\sigma_U$ of the voltage be the same at every range. How does this noise affect the range? We
 # solve for $r$, differentiate, and insert (02.7) again:
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-an-infrared-sensor-triangulation"
+# *For the lecturer:* Hold up a finger and look at it with one eye, then with the other: the jump of the
+# finger is the angle that the detector measures. Ask how the jump changes at twice the distance.
+
 # %% slideshow={"slide_type": "fragment"} name="voltage" tags=["nbval-check-output"]
 U, kappa, sigma_U, r = sp.symbols("U kappa sigma_U r", positive=True)
 sigma_of_range = sp.Abs(sp.diff(kappa / U, U)).subs(U, kappa / r) * sigma_U
@@ -599,6 +623,10 @@ compare(sigmas, sigma_at(np.array([0.05, 0.1, 0.28])))
 # door. The door is 1 m wide, and a second wall stands beyond it. In our model every surface in the cone
 # returns an echo. (A real smooth wall reflects sound like a mirror, and at a large angle of incidence it
 # returns none.)
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-an-ultrasonic-sensor-a-wide-beam"
+# *For the lecturer:* If the class answers 14°, ask whether the cone opens to one side only. On the slider,
+# first set the cone to 0° and let the class describe the difference.
 
 # %% slideshow={"slide_type": "fragment"} name="ask-door"
 ask(
@@ -671,6 +699,10 @@ views.explore(
 # its head). We may not redistribute the recordings. Instead, the course contains a table of their statistics,
 # and the cells below compute every number from this table.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-a-real-lidar"
+# *For the lecturer:* Ask for differences between the two scans before you name any. The number and the
+# directions of the beams cannot be seen in the picture.
+
 # %% slideshow={"slide_type": "fragment"} name="first-turn" tags=["folded"]
 first_turn = np.array(real["first_turn"]) * rplidar_a2_noise.CELL
 simulated = RPLIDAR_A2.scan(worlds.room(), np.zeros(3), np.random.default_rng(3))
@@ -717,8 +749,12 @@ for number, sizes in enumerate(real["turns"], 1):
 #
 # $$ \operatorname{Var}(\Delta r) = \bigl(1 + (1 - \tau)^2 + \tau^2\bigr)\, \sigma^2. \tag{02.10} $$
 #
-# We divide $\Delta r$ by the square root of the bracket, so the result has the $\sigma$ of one range. An error
+# We divide $\Delta r$ by the square root of the factor of $\sigma^2$, so the result has the $\sigma$ of one range. An error
 # that is the same in both turns cancels. So the result contains the random errors only.
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-how-large-is-the-noise"
+# *For the lecturer:* Ask what (02.9) cannot show: an error that repeats in every turn cancels, so the result
+# contains no bias. If time is short, state (02.10) without its derivation.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Two estimates of σ
@@ -765,6 +801,11 @@ for low, *both in zip(rplidar_a2_noise.INCIDENCES[:-1], 100 * share, 100 * predi
 # the resolution over the whole range. A resolution is not a σ. Our guess is 0.4 %. All these statements give *one*
 # share for all ranges.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-does-the-noise-grow-like-the-range"
+# *For the lecturer:* Take the poll before you show the table; a constant share is the natural guess, because
+# data sheets state one number. Let a student fit the curve with the sliders before you show the least
+# squares.
+
 # %% slideshow={"slide_type": "fragment"} name="ask-far"
 ask(
     "02-far",
@@ -793,7 +834,8 @@ for r, share in zip(r_class, share_class, strict=True):
 #
 # $$ \sigma^2 = (c_1\, r)^2 + (c_2\, r^2)^2. \tag{02.11} $$
 #
-# At first the figure shows our first guess. Move the sliders until the curve runs through the marks.
+# At first the next figure shows our first guess. Can you find constants with which the curve runs through all
+# marks?
 
 
 # %% slideshow={"slide_type": "fragment"} name="by-hand" answers="02-far" tags=["folded"]
@@ -859,6 +901,11 @@ print(f"from {off.min():.2f} to {off.max():.2f} times the σ measured")
 # steps, too: a small step of $1/r$ causes a step of $r$ that is $r^2$ times as large. We can search the data
 # for such steps. Which values of $r$, in millimetres, occur near 7 m?
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-steps-in-the-ranges"
+# *For the lecturer:* Plan enough time here. Students may ask whether this method can be trusted. The
+# simulated `RPLIDAR_A2` has no coarse steps: its neighbouring values are mostly a millimetre apart, both at 3
+# m and at 7 m.
+
 # %% slideshow={"slide_type": "fragment"} name="steps-at-7" tags=["nbval-check-output", "code"]
 r_7, r_11 = (sum(rplidar_a2_noise.WINDOWS[k]) / 2 for k in (2, 3))
 step_7 = np.median(np.diff(real["steps"][2]))
@@ -903,6 +950,10 @@ for (low, high), values in zip(rplidar_a2_noise.WINDOWS, real["steps"], strict=T
 #
 # {= 100 * real["empty"]["readings"]:.1f =} % of the real device's beams have no return. So our guess drops 3 %
 # of its beams at random.
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-missing-returns"
+# *For the lecturer:* Before you explain the figure, ask what a column of marks means, and what the slanted
+# line could be. If time is short, show the figure alone.
 
 # %% slideshow={"slide_type": "fragment"} name="ask-empty"
 ask(
@@ -949,6 +1000,10 @@ views.show(
 # recordings, over ranges and angles of incidence at once. Does the noise of the simulator agree with the data?
 # We let the preset and the guess scan simulated square rooms, one room for each mark, and evaluate these scans
 # like the real scans:
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-what-the-simulator-models-and-what-it-la"
+# *For the lecturer:* The question on the slide has the answer: at far ranges, where the true σ is larger than
+# that of the guess. Let the class name two missing effects before you show the table.
 
 
 # %% slideshow={"slide_type": "subslide"} name="bench" tags=["folded"]
@@ -1026,6 +1081,11 @@ views.show(
 # Such a sensor model is called robust: without the last three parts a single outlier would reduce the
 # likelihood of the true pose to nearly zero. Lesson 11 weights particles by likelihoods.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-the-likelihood-of-a-range"
+# *For the lecturer:* Draw the four densities over one axis on the board, because the slide has only the
+# table. The usual mistake is to read the likelihood as a density of the pose; as a function of the pose, its
+# integral need not be one.
+
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## Part three: wheel encoders
 #
@@ -1034,6 +1094,10 @@ views.show(
 # An **encoder** is a disc with slots on the axle of a wheel. A light barrier counts how often light passes
 # through a slot. One such count is a *tick*. The robot computes its odometry from ticks. So odometry is a
 # measurement, too, and it has errors.
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-part-three-wheel-encoders"
+# *For the lecturer:* In the poll, many students add up the tick errors of all metres. Ask what happens to the
+# part of a tick that was not counted at the end of the first metre.
 
 # %% slideshow={"slide_type": "fragment"} name="encoder" tags=["folded"]
 views.explore(
@@ -1124,6 +1188,10 @@ for name, errors in wheel_errors.items():
 # $$ d = \ell\,\Delta\theta = \frac{s_{\mathrm l} + s_{\mathrm r}}{2}, \qquad
 # \Delta\theta = \frac{s_{\mathrm r} - s_{\mathrm l}}{B}. \tag{02.14} $$
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-differential-drive-from-two-wheels-to-an"
+# *For the lecturer:* The answers to the two questions on the slide: the centre is the wheel that stands
+# still; with opposite wheels it is the middle of the axle. Show both with two fingers on the desk.
+
 # %% slideshow={"slide_type": "subslide"} name="wheel-arcs" tags=["folded"]
 BASE = 0.3  # B, the distance between the wheels [m]
 
@@ -1184,6 +1252,10 @@ print("limit of the chord for a small turn:", sp.limit(chord, turn, 0))
 # How uncertain are $d$ and $\Delta\theta$? Let the slip of the two wheels be independent, with mean 0 and variances
 # $\sigma_{\mathrm l}^2$ and $\sigma_{\mathrm r}^2$. By (02.14), $(d, \Delta\theta)$ is the matrix $J$ times $(s_{\mathrm l}, s_{\mathrm r})$, and the same matrix transforms the errors $e$ of the two distances. The covariance of $J e$ is $J$ times the covariance of
 # $e$ times $J^{\mathsf T}$ (lesson 03 derives this rule):
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-the-covariance-of-wheel-odometry"
+# *For the lecturer:* Ask for the sign of the correlation in a curve to the right. (It is negative.) If time
+# is short, leave out this section: lesson 04 uses a diagonal covariance.
 
 # %% slideshow={"slide_type": "fragment"} name="covariance" tags=["nbval-check-output", "code"]
 B, s_l, s_r = sp.symbols("B sigma_l sigma_r", positive=True)
@@ -1247,6 +1319,10 @@ compare(C, noise.C_wheels((0.23, 0.2), slip=0.01, base=0.3))
 # {= 100 * np.abs(arc(0.20, 0.26, 0.3) - [0.23, 0, 0.2])[1]:.1f =} cm for the wheels above, in one step. The shorter
 # the steps, the smaller the error.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-the-motion-models-of-this-course"
+# *For the lecturer:* Students confuse a control input with an odometry increment. The increment is a
+# measurement, which the filter uses in place of the control input.
+
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=1
 # ## Literature
 #
@@ -1262,6 +1338,10 @@ compare(C, noise.C_wheels((0.23, 0.2), slip=0.01, base=0.3))
 # **Read next:** Sebastian Thrun, Wolfram Burgard and Dieter Fox, *Probabilistic Robotics*, 2005, chapter 5
 # on motion models and chapter 6 on the beam model.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-literature"
+# *For the lecturer:* If a student asks whether cheap lidars triangulate: the device in the paper by Konolige
+# and others was built for a robot vacuum cleaner.
+
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=1
 # ## Summary
 #
@@ -1276,6 +1356,10 @@ compare(C, noise.C_wheels((0.23, 0.2), slip=0.01, base=0.3))
 # this one are
 # optional.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-summary"
+# *For the lecturer:* Before you show it, ask which of the three errors of a wheel can be removed by
+# calibration, and which one a filter may model as independent noise.
+
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Deeper: occlusion
 #
@@ -1284,7 +1368,12 @@ compare(C, noise.C_wheels((0.23, 0.2), slip=0.01, base=0.3))
 # beside a corridor, with doors that face each other. What share of all walls is visible from near the middle of
 # one room? From which position is the largest share visible? Choose a position before you move the robot there.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-deeper-occlusion"
+# *For the lecturer:* This works as a game: each student names a position, and the largest visible share wins.
+# The grid search at the end gives the best one.
+
 # %% slideshow={"slide_type": "fragment"} name="visible"
+# which spots on the walls are visible from (x, y)
 flat = worlds.situation_1()
 ends = [(wall[:2], wall[2:]) for wall in flat.walls]
 spots = [np.linspace(p, q, round(np.hypot(*(q - p)) / 0.05)) for p, q in ends]
@@ -1336,6 +1425,10 @@ views.explore(
 # cardboard boxes, from the same pose. Which sensor measures most walls? Which sensor measures near walls only?
 # How do corners appear in the third plot? The fields of view are 360°, 178° and 180°.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-deeper-three-sensors-in-one-arena"
+# *For the lecturer:* Ask which of the three sensors cannot see a corner, and which one is useless in the
+# middle of a large room.
+
 # %% slideshow={"slide_type": "fragment"} name="three-sensors" tags=["folded"]
 arena, stands = worlds.arena(), np.array([-0.12, -0.2, np.radians(100)])
 devices = {"lidar": RPLIDAR_A2, "infrared": GP2D120, "ultrasonic": ULTRASONIC}
@@ -1371,6 +1464,10 @@ views.show(
 #
 # $$ (r - \xi)^2 + \eta^2 = \varrho^2. \tag{02.17} $$
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-deeper-a-round-pillar"
+# *For the lecturer:* Let the class name the three cases (outside, inside, passing by) and guess the kind of
+# the roots before the cell prints them.
+
 # %% slideshow={"slide_type": "fragment"} name="pillar" tags=["nbval-check-output"]
 r, xi, eta, radius = sp.symbols("r xi eta varrho", positive=True)
 sp.solve(sp.Eq((r - xi) ** 2 + eta**2, radius**2), r)
@@ -1397,6 +1494,10 @@ for story, x, y in [("from outside", 0, 0.3), ("from inside", 3.1, 0.3), ("passi
 # Drag the corner $(-2.4, -3.2)$ to the right: is more of the bay in the lower left visible, or less? Which
 # points disappear when you add the pillar `-1 -1 0.2`?
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-deeper-move-a-wall-watch-the-scan"
+# *For the lecturer:* Let the class choose the place of the pillar and state which points will disappear
+# before you add it.
+
 
 # %% slideshow={"slide_type": "fragment"} name="editor"
 def scan_from_the_origin(world):
@@ -1419,6 +1520,10 @@ editor = edit_world(
 #
 # Four numbers define a wall, three define a circle, and `#` begins a comment. So you can measure your own room,
 # write the numbers in a file, read the file with `worlds.load`, and simulate a lidar in this room.
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-deeper-a-world-is-a-text-file"
+# *For the lecturer:* A good homework: measure a room with a folding rule, write its file, and bring it to the
+# next lecture.
 
 # %% slideshow={"slide_type": "fragment"} name="world-file" tags=["nbval-check-output"]
 MY_ROOM = """
@@ -1452,3 +1557,6 @@ for line in ("1 1 1 1", "0 0 one 2", "0 0 1 1 1", "2 2 -0.1", "0 0 1 nan"):
 #
 #     slamlab data get --lesson 2
 #     python -m course.studies.rplidar_a2_noise --out my-a2.json
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-deeper-your-own-copy-of-the-recordings"
+# *For the lecturer:* The commands need a network. Run them before the lecture, not in it.

@@ -47,6 +47,10 @@ from slamlab.simulation import linear_system as cart
 #
 # $$\hat x = (1 - w)\,x_{\text{odometry}} + w\,z \tag{03.1}$$
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-two-estimates-of-one-position"
+# *For the lecturer:* Many students expect that a poor estimate makes the result worse. Ask what happens if σ
+# of the odometry is 100 m: its weight goes to zero, and it does no harm.
+
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "03-surer",
@@ -145,6 +149,11 @@ compare(information, 1 / fuse(position, variance, 4.6, 0.5**2)[1])
 # σ of the mean, and 95 % within {= norm.ppf(0.975):.2f =} σ. The second range is the **95 % interval**; figures
 # often round it to ±2σ. The sliders set σ of the odometry and of the range finder, in metres.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-the-gaussian-density-and-bayes-rule"
+# *For the lecturer:* The likelihood is the difficult term: the measured $z$ is fixed, and $x$ varies. Cover
+# the legend and ask which curve is which. If time is short, show the formula of Bayes' rule and skip the
+# numerical check.
+
 
 # %% slideshow={"slide_type": "fragment"} tags=["folded"]
 def three_gaussians(odometry, range_finder):
@@ -222,6 +231,11 @@ print(f"largest difference of the two densities: {difference:.9f} per metre")
 # $F$ adds the distance that the cart covers at its speed, and $G$ adds the effect of the control
 # input. The **process noise** $q$ is the unknown part of the motion: wheels slip, and motors are not exact.
 # This noise is random, with mean zero and covariance $Q$, and independent from step to step.
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-state-control-input-and-process-noise"
+# *For the lecturer:* Ask what else the future of a real cart depends on, such as friction or the slope of the
+# floor: whatever the state leaves out becomes process noise. Start the slider at 0 and move it one step at a
+# time.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Mean and covariance
@@ -321,6 +335,10 @@ views.explore(
 # error is then the expected value of the error times its transpose, $P = E[\tilde x \tilde x^{\mathsf
 # T}]$. So we multiply the error by its transpose.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-prediction-derived"
+# *For the lecturer:* Let the class multiply the four terms by hand before the outputs appear; the two mixed
+# terms are the only difficulty. If time is short, skip "Where Q comes from".
+
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 n, m = sp.symbols("n m", integer=True, positive=True)  # any number of states, and of measured ones
 F, P, Q = sp.MatrixSymbol("F", n, n), symmetric("P", n), symmetric("Q", n)
@@ -405,6 +423,11 @@ compare(P_ahead, kalman_filter.predict(start, cart.F, cart.Q).P)
 # has two parts:
 #
 # $$v = z - H \hat x = H \tilde x + \varepsilon \tag{03.13}$$
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-the-innovation-and-its-covariance"
+# *For the lecturer:* Whoever answers 0.7 adds standard deviations, a mistake that returns in every later
+# lesson. Spend a minute on it. Then point at the second number of $S_{xv}$: it is the reason why a position
+# sensor can correct a speed.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -648,6 +671,10 @@ views.explore(
 # > 7. Update its covariance: $P \leftarrow (I - K H)\,P\,(I - K H)^{\mathsf T} + K R K^{\mathsf T}$
 # >
 # > **Output:** $\hat x$ and $P$. Without a measurement, leave out steps 3 to 7.
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-the-kalman-filter-on-a-run"
+# *For the lecturer:* Before you move the slider, ask what both bands do while the person stands in front of
+# the sensor. Students expect a wide band for the speed, because nothing measures it.
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
 prior = kalman_filter.predict(start, cart.F, cart.Q, cart.G, cart.CONTROLS[0])  # steps 1 and 2
@@ -1027,6 +1054,10 @@ views.explore(
 # innovation from the innovation before, and the filter would not use all its information. The test computes the **autocorrelation**
 # of the innovations over one step, which should be near zero.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-tests-without-the-truth-nis-and-whitenes"
+# *For the lecturer:* Cover the last column of the table and ask which filters the class would accept by the
+# NIS alone. Then uncover it: one filter with a NIS near 1 has by far the largest NEES.
+
 
 # %% slideshow={"slide_type": "fragment"}
 def innovation_tests(found, steps):
@@ -1072,6 +1103,10 @@ for name, assumed in cases.items():
 #   choose $\alpha$ equal to the mean NIS, and the new mean NIS is 1.
 #
 # Tune on one run and test on another run. First find $R$ with the robot at rest, where $Q = 0$.
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-tuning-q-and-r"
+# *For the lecturer:* Ask which of the two numbers fixes the ratio of $Q$ and $R$, and which one their scale.
+# Then ask what is wrong with tuning and testing on the same run.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### A real lidar at rest
@@ -1155,7 +1190,7 @@ compare(R_tuned, brentq(lambda R: range_tests(tuned_on, R)[0] - 1, 1e-7, 1e-3), 
 _ = report("tuned, the other recording", tested_on, R_guess * nis_guess)
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# With the first guess, the NIS of the real recording is about an eighth of 1, its expected value. With the
+# With the first guess, the NIS of the real recording is {= nis_guess:.2f =}, far below its expected value 1. With the
 # tuned σ, the NIS of the other recording lies just below its interval: for this recording, the tuned σ is
 # slightly conservative. (The intervals assume Gaussian errors that are independent also between directions.)
 # The
@@ -1176,6 +1211,11 @@ _ = report("tuned, the other recording", tested_on, R_guess * nis_guess)
 #   chapter 2.
 # - **Read next:** R. Labbe, *Kalman and Bayesian Filters in Python*, free notebooks.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-sources-and-what-comes-next"
+# *For the lecturer:* If a student asks why Gauss is in the list: he proved that least squares has the
+# smallest variance among the linear unbiased estimates, and the Kalman filter computes this estimate step by
+# step.
+
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### What you can do now
 #
@@ -1193,6 +1233,10 @@ _ = report("tuned, the other recording", tested_on, R_guess * nis_guess)
 #
 # The trace adds m² to (m/s)². Is the minimum of such a sum meaningful? For the
 # cart we can solve for both gains in symbols: $P$ has the variances $a$ and $b$ and the covariance $c$.
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-deeper-the-kalman-gain-is-best-for-every"
+# *For the lecturer:* Ask whether the minimum would move if the speed were given in cm/s. (It would not, by
+# (03.26).)
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 a, b, c, k_1, k_2, R_1 = sp.symbols("a b c k_1 k_2 R")
@@ -1218,6 +1262,10 @@ K_best
 # In practice a gain is often not the best one, because a model is approximate, or because a filter neglects
 # correlations. We use the gain $s\,K$ with the factor $s$ from 0 to 2, and compare the covariance by (03.20)
 # with the errors of the carts.
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-deeper-the-covariance-with-a-suboptimal"
+# *For the lecturer:* At $s = 2$, ask what a negative mean square means. The formula is not wrong; it is used
+# outside its condition.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -1276,6 +1324,10 @@ sp.simplify(excess - 2 * s * (1 - s) * K_best * (a + R_1) * K_best.T)
 # by the reported variance. In no direction may the ratio exceed 1 by more than random variation explains. The
 # next cell tests the last step:
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-deeper-a-test-for-a-conservative-covaria"
+# *For the lecturer:* Ask why the program prints "may be conservative" and not "is". A test of this kind can
+# only refute.
+
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 for factor in (0.5, 1, 2):
     wrong = filtered(zs, factor)
@@ -1295,6 +1347,10 @@ for factor in (0.5, 1, 2):
 #
 # $P^{-1}$ is the **information matrix**, $P^{-1} \hat x$ the *information vector*. A filter that stores these two is in **information form** (an *information filter*). In information form an update is a sum, and a
 # prediction needs inverses. Lesson 15 solves whole graphs in information form.
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-deeper-the-information-form"
+# *For the lecturer:* Show this section if your course reaches lesson 15: there, every measurement adds such a
+# term to one large matrix.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # **Your turn.** Compute the information matrix of the rolled cart after its measurement.
@@ -1322,8 +1378,12 @@ compare(posterior_information, np.linalg.inv(after.P))
 # often does
 # the updated $P$ have a negative variance in some direction?
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-deeper-the-joseph-form-and-rounding-erro"
+# *For the lecturer:* Use this table if somebody asks why the boxes contain the long form.
+
 
 # %% slideshow={"slide_type": "fragment"}
+# whether the updated P has a negative eigenvalue, by each of the three forms
 def negative(sensor_sigma, rng):
     """Whether the updated P has a negative eigenvalue: by each of the three forms."""
     root, H = rng.normal(0, 1000, (2, 2)), np.array([[1.0, 0.7], [0.2, 1.0]])
@@ -1365,8 +1425,13 @@ print("P differs by less than 1e-12:", bool(abs(covariances - found.P).max() < 1
 # error, of the process noise and of the measurement noise. Is its estimate of the last state better than that
 # of the filter?
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-deeper-batch-least-squares"
+# *For the lecturer:* Ask before you run the cell whether a method that keeps all data estimates the *last*
+# state better. Most students expect that it does.
+
 
 # %% slideshow={"slide_type": "fragment"}
+# the equations of a run: its start, its steps, its measurements
 def equations(zs):
     """Equations (block by step, value, covariance) of a run: its start, steps and measurements."""
     yield {0: np.eye(2)}, start.x, start.P
