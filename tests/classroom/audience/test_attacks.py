@@ -15,7 +15,7 @@ from classroom.audience.server import LECTURER_LIMITS
 from slamlab.live.web_server import http_server
 from slamlab.live.web_server.sessions import BearerToken, Sessions
 from tests.slamlab.web_server.client import Client
-from tests.slamlab.web_server.test_http_server import in_a_loop
+from tests.slamlab.web_server.small_server import in_a_loop
 
 PAGE = "http://localhost:8888"
 

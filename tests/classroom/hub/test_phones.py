@@ -13,7 +13,7 @@ from slamlab.live.web_server.sessions import Sessions
 from tests.classroom.audience import test_attacks
 from tests.classroom.hub.proxied import BASE, ProxiedClient, ProxiedLecture, published
 from tests.slamlab.web_server.client import Client, parsed
-from tests.slamlab.web_server.test_http_server import FOREIGN, HOSTS, METHODS, in_a_loop
+from tests.slamlab.web_server.small_server import FOREIGN, HOSTS, METHODS, in_a_loop
 
 
 @pytest.fixture(autouse=True)

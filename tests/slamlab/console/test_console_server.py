@@ -9,7 +9,7 @@ import pytest
 from slamlab.live.console.console_server import serve
 from tests.slamlab.console.test_control_panel import At
 from tests.slamlab.web_server.client import Client, parsed
-from tests.slamlab.web_server.test_http_server import HANDSHAKE
+from tests.slamlab.web_server.small_server import HANDSHAKE
 from tests.timeouts import PATIENCE
 
 
@@ -90,19 +90,28 @@ class Talk:
         self.socket.write_message(json.dumps({"kind": kind} | content))
 
 
-async def connect(client, token):
+@contextlib.asynccontextmanager
+async def connected(client, token):
+    """A page that logs in and closes its WebSocket at the end."""
     from tornado.httpclient import HTTPRequest
     from tornado.websocket import websocket_connect
 
     assert await client.log_in(token) == 200
     headers = {"Origin": f"http://{client.own}", "Cookie": client.cookie}
     asked = HTTPRequest(f"ws://{client.own}/socket", headers=headers)
-    return Talk(await websocket_connect(asked))
+    socket = await websocket_connect(asked)
+    try:
+        yield Talk(socket)
+    finally:
+        socket.close()
 
 
 async def test_when_the_driving_page_closes_the_robot_stops():
-    async with served(speed=100) as (at, client, token):
-        one, two = await connect(client, token), await connect(client, token)
+    async with (
+        served(speed=100) as (at, client, token),
+        connected(client, token) as one,
+        connected(client, token) as two,
+    ):
         for page in (one, two):
             assert (await page.until("state"))["drivable"]
             page.send("ready", calm=False)
@@ -122,8 +131,7 @@ async def test_when_the_driving_page_closes_the_robot_stops():
              '{"kind": "line"}', '{"kind": "press", "name": "x"}', "[" * 1000]
 )  # fmt: skip
 async def test_invalid_messages_are_ignored(content):
-    async with served() as (_, client, token):
-        page = await connect(client, token)
+    async with served() as (_, client, token), connected(client, token) as page:
         page.socket.write_message(content)
         page.send("press", name="stop")
         while (await page.until("answer"))["text"] != "the robot stops":
@@ -131,8 +139,7 @@ async def test_invalid_messages_are_ignored(content):
 
 
 async def test_a_page_that_sends_too_much_is_disconnected():
-    async with served() as (_, client, token):
-        page = await connect(client, token)
+    async with served() as (_, client, token), connected(client, token) as page:
         with contextlib.suppress(Exception):
             for _ in range(3000):
                 page.send("renew")
