@@ -1,6 +1,6 @@
 """Short runs with wheel slip: a corridor and a loop of corridors.
 
-The two runs have opposite odometry errors: the mean of their odometry is the true motion.
+Pairs of runs have opposite odometry errors: the mean of their odometry is the true motion.
 """
 
 from dataclasses import replace
@@ -35,9 +35,10 @@ BAD = 0.5  # least mean error of odometry over these poses [m]
 WHEELS = np.array([0.008, 0.004, 0.035])  # σ of the odometry error of a step [m, m, rad]
 
 
-def corridor(rng, steps=18, lost=()):
-    """Return two runs along a corridor with niches: odometry (2, n, 3) [m, m, rad], ranges
-    (2, n, beams) [m], NaN: no return. lost : readings whose scan is lost.
+def corridor(rng, steps=18, lost=(), runs=2, bad=BAD):
+    """Return runs along a corridor with niches: odometry (runs, n, 3) [m, m, rad], ranges
+    (runs, n, beams) [m], NaN: no return. lost : readings whose scan is lost; bad : least mean
+    error of odometry over the last poses [m].
     """
     length = steps * STEP
     sides = [_side(rng, -3.0, length + 3.0, y) for y in (-WIDTH / 2, WIDTH / 2)]
@@ -48,9 +49,9 @@ def corridor(rng, steps=18, lost=()):
     y = high * np.sin(0.7 * x + phase)
     truth = np.column_stack([x, y, np.arctan(0.7 * high * np.cos(0.7 * x + phase))])
     while True:
-        errors = WHEELS * rng.standard_normal(truth.shape)
+        errors = WHEELS * rng.standard_normal((runs // 2, *truth.shape))
         inputs = _measured(rng, world, truth, errors, lost)
-        if off_at_the_end(inputs, [integrate_odometry(u) for u in inputs["odometry"]]).min() > BAD:
+        if off_at_the_end(inputs, [integrate_odometry(u) for u in inputs["odometry"]]).min() > bad:
             return inputs
 
 
@@ -76,7 +77,7 @@ def ring(rng, around=(5.5, 4.0), beyond=3.0, blind=10):
     while True:
         errors = WHEELS * [1, 1, 0.4] * rng.standard_normal(truth.shape)
         errors[lost, 2] = turned / blind  # a heading error of either sign
-        inputs = _measured(rng, world, truth, errors, lost, SHORT_SIGHTED)
+        inputs = _measured(rng, world, truth, errors[None], lost, SHORT_SIGHTED)
         if off_at_the_end(inputs, [integrate_odometry(u) for u in inputs["odometry"]]).min() > BAD:
             return inputs
 
@@ -92,21 +93,21 @@ def length(inputs):
 
 
 def off_at_the_end(inputs, trajectories):
-    """Return (2,) mean errors [m] of the last :data:`LAST` poses of trajectories (2, n, 3)."""
+    """Return (runs,) mean errors [m] of the last :data:`LAST` poses of trajectories."""
     return offs(inputs, trajectories)[:, -LAST:].mean(axis=1)
 
 
 def offs(inputs, trajectories):
-    """Return (2, n) position errors of all poses, relative to the first pose [m]."""
+    """Return (runs, n) position errors of all poses, relative to the first pose [m]."""
     seen = np.array([between(poses[0], poses) for poses in trajectories])
     return np.hypot(*np.moveaxis((seen - route(inputs))[..., :2], -1, 0))
 
 
 def _measured(rng, world, truth, errors, lost, lidar=LIDAR):
     steps = between(truth[:-1], truth[1:])
-    odometry = np.zeros((2, len(truth), 3))
-    odometry[:, 1:] = steps + errors[1:], steps - errors[1:]
-    ranges = np.array([[lidar.scan(world, pose, rng).ranges for pose in truth] for _ in range(2)])
+    odometry = np.zeros((2 * len(errors), len(truth), 3))
+    odometry[:, 1:] = np.concatenate([steps + errors[:, 1:], steps - errors[:, 1:]])
+    ranges = np.array([[lidar.scan(world, pose, rng).ranges for pose in truth] for _ in odometry])
     ranges[:, list(lost)] = np.nan
     return {"odometry": odometry, "ranges": ranges}
 

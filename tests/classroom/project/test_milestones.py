@@ -9,7 +9,7 @@ from classroom.exercises.task import OPEN_SEED
 from course.exercises.ex16_your_own_slam import short_runs
 from course.exercises.ex16_your_own_slam.calls import integrate_odometry
 from course.exercises.ex16_your_own_slam.exercise import EXERCISE
-from course.exercises.ex16_your_own_slam.sure.task import mean_nees
+from course.exercises.ex16_your_own_slam.sure.task import BLIND, is_consistent, mean_nees
 from course.project.reference_estimators import ScanGraph
 from course.project.solution import MySlam as Solution
 from course.project.template import MySlam as Template
@@ -87,12 +87,13 @@ class Turned(Solution):
 
 
 def claiming(claim, of=Solution):
-    """An estimator with another covariance."""
+    """An estimator that reports another covariance, a function of its own."""
 
     class Claiming(of):
         def step(self, reading):
+            self.covariance = getattr(self, "own", np.zeros((3, 3)))
             super().step(reading)
-            self.covariance = claim
+            self.own, self.covariance = self.covariance, claim(self.covariance)
 
     return Claiming
 
@@ -172,16 +173,27 @@ def test_a_map_may_be_not_attempted_but_is_not_a_list_of_numbers():
 @pytest.mark.parametrize(
     ("claim", "laws", "name"),
     [
-        (1e-9 * np.eye(3), {"grows", "honest"}, "too-sure"),
-        (1e3 * np.eye(3), {"grows", "honest"}, "too-modest"),
-        (np.diag([0.003, 0.003, 0.0005]), {"grows"}, "constant"),
-        (-np.eye(3), {"grows", "honest"}, "no-covariance"),
+        (lambda own: np.diag([0.01, 0.08, 0.003]), {"grows", "honest"}, "constant"),
+        (lambda own: 1e-3 * own, {"honest"}, "too-sure"),
+        (lambda own: 1e3 * own, {"honest"}, "too-modest"),
+        (lambda own: -own, {"grows", "honest"}, "no-covariance"),
     ],
 )
 def test_an_inconsistent_covariance_fails_and_is_reported(claim, laws, name):
     found = verdict(SURE, claiming(claim))
     assert failed(found) == laws
     assert found.diagnosis == name
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_no_constant_covariance_is_consistent_with_and_without_scans(seed):
+    inputs = SURE.draw_inputs(seed)[MAIN]
+    found = SURE.call.run({"MySlam": Solution}, inputs)
+    e = found["pose"] - short_runs.route(inputs)
+    typical = np.mean(e[:, BLIND[-1]] ** 2, axis=0)  # [m², m², rad²]
+    for factor in np.geomspace(1e-4, 10, 40):
+        claimed = np.broadcast_to(factor * np.diag(typical), found["covariance"].shape)
+        assert not is_consistent(inputs, found | {"covariance": claimed})
 
 
 @pytest.mark.parametrize("seed", SEEDS)
@@ -212,8 +224,8 @@ def test_no_array_contains_the_truth_and_odometry_is_far_from_it(task):
     inputs = task.draw_inputs(OPEN_SEED)[MAIN]
     truth = short_runs.route(inputs)
     assert set(inputs) == {"odometry", "ranges"}
-    for odometry in inputs["odometry"]:
-        assert np.hypot(*(integrate_odometry(odometry) - truth)[-5:, :2].T).mean() > 0.4
+    wheels = np.array([integrate_odometry(odometry) for odometry in inputs["odometry"]])
+    assert np.hypot(*(wheels - truth)[:, -5:, :2].T).mean() > 0.4
 
 
 def test_every_law_asks_a_question_and_what_is_missing_is_named():
