@@ -1179,12 +1179,15 @@ views.explore(
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="11-unseen"
 # The mean drifts, and the set becomes overconfident. On average, each resampling removes the share $1/n$ of the variance and
-# adds it to the error. If the initial variance of a set is $\sigma^2$, in $x$ and in $y$ together, the mean square distance
+# adds it to the error. The dotted curve shows the distance that results, (11.10).
+
+# %% [markdown] slideshow={"slide_type": "subslide"} answers="11-unseen"
+# If the initial variance of a set is $\sigma^2$, in $x$ and in $y$ together, the mean square distance
 # of its mean from the start after $k$ resamplings is
 #
 # $$\mathrm{E}\, |\bar x_k - \bar x_0|^2 = \left(1 - \left(1 - \tfrac1n\right)^k\right) \sigma^2, \tag{11.10}$$
 #
-# the dotted curve. (A *Deeper* section derives it.) Biologists call this effect genetic drift. Genetic
+# as a *Deeper* section derives. Biologists call this effect genetic drift. Genetic
 # drift also occurred in the first section: hardly any measurement distinguished the two modes, and in a
 # small set the weight of one mode drifted to zero.
 #
