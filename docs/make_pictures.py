@@ -1,8 +1,9 @@
-"""Makes the pictures of README and guides: ``python docs/make_pictures.py [NAME ...]``.
+"""Make the pictures of README and guides: ``python docs/make_pictures.py [NAME ...]``.
 
 The Intel map needs the recording (``SLAMLAB_DATA`` or ``data/``), the picture of a check Chromium.
 """
 
+import argparse
 import io
 import os
 import re
@@ -133,17 +134,22 @@ PICTURES = {
 }
 
 
-def main(names):
+def main(argv=None):
     """Make the pictures named, all without a name."""
-    for name in names or PICTURES:
+    parser = argparse.ArgumentParser(prog="make_pictures.py", description=__doc__)
+    parser.add_argument("names", nargs="*", metavar="NAME", help=", ".join(PICTURES))
+    parser.add_argument("--out", type=Path, default=DOCS, help="folder to write into (docs/)")
+    options = parser.parse_args(argv)
+    for name in options.names or PICTURES:
         if name not in PICTURES:
             sys.exit(f"no picture {name!r}: there are {', '.join(PICTURES)}")
         picture = with_few_colours(PICTURES[name]())
         if len(picture) > MOST:
             sys.exit(f"{name}: {len(picture)} bytes, more than {MOST}")
-        (DOCS / f"{name}.png").write_bytes(picture)
-        print(f"docs/{name}.png: {len(picture) // 1000} kB")
+        file = options.out / f"{name}.png"
+        file.write_bytes(picture)
+        print(f"{file}: {len(picture) // 1000} kB")
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    main()

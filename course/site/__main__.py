@@ -12,9 +12,10 @@ def main(argv=None):
     """Run the command line and return its exit code."""
     parser = argparse.ArgumentParser(prog="python -m course.site", description=__doc__)
     parser.add_argument("--out", type=Path, default=ROOT / "site", help="where to (site/)")
+    parser.add_argument("--lessons", nargs="*", help="whose films and sliders to render (all)")
     options = parser.parse_args(argv)
     try:
-        failed = building.build(options.out)
+        failed = building.build(options.out, rendered=options.lessons)
     except building.SiteError as error:
         print(error, file=sys.stderr)
         return 1
