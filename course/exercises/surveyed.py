@@ -83,9 +83,8 @@ def differences(want, on=NAME):
 
     return Diagnosis(
         "differences",
-        "Your result is nearly right, but not exact if numbers are very large or small. Finite "
-        "differences have such errors. Derive formulas of the derivatives; subtract positions "
-        "from each other before you multiply them.",
+        "Your result is nearly right, but not exact. Finite differences have such errors. Derive "
+        "formulas of the derivatives; subtract positions from each other before you multiply them.",
         nearly_right,
         on,
         asks="How many digits of a coordinate of 500 km does a float keep, and how many of them "

@@ -87,18 +87,6 @@ def jacobians(x_i, x_j, z):
         J[:, k] = e(w).imag / 1e-20
     return J[:, :3], J[:, 3:]
 
-# %% wrong: central differences
-def jacobians(x_i, x_j, z):
-    def slope(f, x):
-        columns = []
-        for h in 1e-6 * np.eye(3):
-            d = f(x + h) - f(x - h)
-            d[2] = wrap(float(d[2]))
-            columns.append(d / 2e-6)
-        return np.column_stack(columns)
-
-    return slope(lambda v: error(v, x_j, z), x_i), slope(lambda v: error(x_i, v, z), x_j)
-
 # %% wrong: central differences of the unwrapped error, with exact steps of a power of two
 def jacobians(x_i, x_j, z):
     def e(x_i, x_j):
@@ -134,14 +122,6 @@ def jacobians(x_i, x_j, z):
     A = -B
     dx, dy = x_j[:2] - x_i[:2]
     A[:2, 2] = [c * dy - s * dx, -c * dx - s * dy]
-    return A, B
-
-# %% wrong: forward differences without wrapping: breaks at e's angle = pi
-def jacobians(x_i, x_j, z):
-    h = 1e-7
-    e = error(x_i, x_j, z)
-    A = np.column_stack([(error(x_i + d, x_j, z) - e) / h for d in h * np.eye(3)])
-    B = np.column_stack([(error(x_i, x_j + d, z) - e) / h for d in h * np.eye(3)])
     return A, B
 
 # %% wrong: differences that push the caller's own poses

@@ -102,19 +102,6 @@ def range_edge(x_i, x_j, r, a_i, a_j):
     B = np.array([c, s, along(1j * arm_j)])
     return float(abs(d) - r), A, B
 
-# %% wrong: central differences
-def range_edge(x_i, x_j, r, a_i, a_j):
-    def e(x_i, x_j):
-        ends = []
-        for x, a in ((x_i, a_i), (x_j, a_j)):
-            ends.append(compose(x, np.array([a[0], a[1], 0.0]))[:2])
-        return np.linalg.norm(ends[1] - ends[0]) - r
-
-    H = 1e-6 * np.eye(3)
-    A = [(e(x_i + h, x_j) - e(x_i - h, x_j)) / 2e-6 for h in H]
-    B = [(e(x_i, x_j + h) - e(x_i, x_j - h)) / 2e-6 for h in H]
-    return e(x_i, x_j), np.array(A), np.array(B)
-
 # %% wrong: central differences, positions subtracted first, with exact steps of a power of two
 def range_edge(x_i, x_j, r, a_i, a_j):
     def e(x_i, x_j):
