@@ -47,7 +47,12 @@ from slamlab.sources.landmark_runs import LandmarkRun, Loop
 #
 # Where is the robot, and where are the landmarks?
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-one-lap-by-odometry"
+# *For the lecturer:* Keep this short: the lap only motivates the question after it. In the poll, ask those
+# who choose "always" where the predicted measurement comes from.
+
 # %% slideshow={"slide_type": "fragment"}
+# simulate one lap, and compute its poses from the odometry alone
 LAP = Loop(landmarks=8, v=0.6, steps=42, range_max=2.0, v_sigma=0.03, omega_sigma=0.015)
 
 
@@ -109,6 +114,10 @@ ask(
 #
 # Lesson 04 derived the Jacobians $H_{\mathrm r}$ (robot) and $H_{\mathrm p}$ (landmark). So three errors
 # contribute to one innovation. We assume that the noise $\varepsilon$ is independent of the other two errors.
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-the-innovation-and-its-covariance"
+# *For the lecturer:* Let the class name the terms that vanish with an exact map before the computer
+# simplifies (05.2). Keep the answer to the *Your turn*, $2R$, on the board: the last section needs it.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # How large is the innovation typically? We stack the two errors in one column vector. The covariance of this
@@ -280,6 +289,10 @@ compare(P_predicted, predicted.P)
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## Localisation over a lap
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-localisation-over-a-lap"
+# *For the lecturer:* Students who remember lesson 01 answer "at the end". In the right panel, point at the
+# longest ellipse and ask where the nearest landmark is.
+
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "05-largest",
@@ -357,6 +370,10 @@ compare(length, ekf_runs.ellipse_length(P_last))
 # The map may contain only some of the landmarks, and the sensor may have a shorter or a longer range.
 # Move a slider and observe where the ellipses grow.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-localisation-in-a-partial-map"
+# *For the lecturer:* Set the number of landmarks to zero and ask which picture this is. (The left panel of
+# the slide before.) If time is short, skip this section.
+
 
 # %% slideshow={"slide_type": "fragment"} tags=["folded"]
 def in_part_of_a_map(landmarks_in_the_map, sensor_range):
@@ -395,6 +412,10 @@ views.explore(
 # ## One landmark: an unobservable direction
 #
 # A measurement has two components, and a pose has three.
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-one-landmark-an-unobservable-direction"
+# *For the lecturer:* Walk round a chair and always face it: your measurement does not change. Ask the class
+# for the three components of this motion; they are (05.7).
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -463,6 +484,7 @@ H_n.step("simplify", sp.simplify)
 # turn that keeps the bearing. This rotation does not change the measurement.
 
 # %% slideshow={"slide_type": "subslide"}
+# one update by range and bearing, and samples of the posterior without linearisation
 CORNER, prior_mean = np.array([[1.7, 1.0], [0.4, -1.6], [-1.5, 0.8]]), np.array([0, 0, 0.3])
 
 
@@ -569,6 +591,7 @@ ask(
 
 
 # %% slideshow={"slide_type": "fragment"}
+# the mean NEES of laps whose map is wrong by some metres
 @cache
 def nees_off_by(metres):
     return ekf_runs.mean_nees(localised_laps(metres, 20))
@@ -625,6 +648,10 @@ off = {metres: nees_off_by(metres).mean() for metres in (0.05, 0.3)}
 #
 # $N$ landmarks have $2N$ coordinates. Does the filter need a covariance of size $2N \times 2N$?
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-mapping-with-known-poses"
+# *For the lecturer:* Many students answer "slightly better", because the landmarks are close to each other.
+# Ask which error the two estimates have in common. (None, since the poses are exact.)
+
 # %% slideshow={"slide_type": "subslide"}
 ask(
     "05-cross",
@@ -665,8 +692,13 @@ gain_steps
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=3
 # ## How the covariance of a landmark shrinks
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-how-the-covariance-of-a-landmark-shrinks"
+# *For the lecturer:* The usual wrong answer is 64, the factor of the variance. Ask what would change if the
+# noise were the same each time.
+
 
 # %% slideshow={"slide_type": "fragment"}
+# the map after landmark initialisation, and after the whole lap
 def mean_length(found):
     return np.mean([ekf_runs.ellipse_length(b.P) for b in found.landmarks.values()])
 
@@ -722,6 +754,7 @@ ask(
 )
 
 # %% slideshow={"slide_type": "fragment"}
+# 100 robots measure one landmark 64 times
 at, mark, counts = np.array([0.5, 0.2, 0.4]), np.array([2.0, 1.5]), [1, 2, 4, 8, 16, 32, 64]
 rng, squared = np.random.default_rng(1), np.zeros((100, 64))
 for errors in squared:
@@ -772,6 +805,10 @@ views.show(
 # gradient of the linearised cost is zero where
 #
 # $\displaystyle \quad \Bigl(\sum_k H_k^{\mathsf T} R^{-1} H_k\Bigr)\,\delta = \sum_k H_k^{\mathsf T} R^{-1} v_k.$
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-mapping-as-weighted-least-squares"
+# *For the lecturer:* If your students know least squares from statistics, begin with the normal equations and
+# present the filter as their recursive form. If time is short, leave out this section.
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # These equations are called the *normal equations*. Their matrix is the sum of the information in (05.6), with
@@ -840,6 +877,10 @@ print(" and ".join(f"{1000 * s:.1f} mm" for s in sigma))
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=3
 # ## Mapping from poses with errors
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-mapping-from-poses-with-errors"
+# *For the lecturer:* Most students expect larger ellipses. Ask which symbol in (05.8) contains the error of
+# the pose. (None does.)
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -937,6 +978,7 @@ ask(
 )
 
 # %% slideshow={"slide_type": "fragment"}
+# three schemes on the same 20 runs of two laps each
 BEGIN, RUNS = 3, 20  # the start is exact, with P = 0, so NEES is undefined there
 schemes = {
     "one joint filter (lesson 06)": alternating_filters.together,
@@ -1076,6 +1118,10 @@ compare(K_j, K_joint[5:])
 #
 # **Read next:** S. Thrun, W. Burgard and D. Fox, *Probabilistic Robotics*, MIT Press, 2005, chapter 7.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-literature"
+# *For the lecturer:* The two threads of PTAM are the two halves of this lesson. Ask which of its steps
+# minimises one common cost.
+
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=1
 # ## Summary
 #
@@ -1092,12 +1138,19 @@ compare(K_j, K_joint[5:])
 # You write EKF localisation and mapping, add a new sensor, and solve a global localisation problem:
 # the initial heading is unknown, and some measurements are outliers.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-summary"
+# *For the lecturer:* Before you show it, ask which block of $P$ was zero in each half, and why neither is
+# zero in SLAM.
+
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Deeper: A is the same for every odometry model
 #
 # Equation (05.4) uses one $A$, although an increment $o = (o_x, o_y, o_\theta)$ may come from a straight step
 # or from an arc. The position part of $\hat x \oplus o$ is the old position plus the increment rotated by the
 # heading. We differentiate $\hat x \oplus o$ with respect to the pose:
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-deeper-a-is-the-same-for-every-odometry"
+# *For the lecturer:* Ask why the increment itself has no derivative with respect to the pose.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 x, y, theta, o_x, o_y, o_theta, dx, dy = sp.symbols("x y theta o_x o_y o_theta Δx Δy", real=True)
@@ -1120,6 +1173,9 @@ A_steps.step("with Δx, Δy", same, given={dx: composed[0] - x, dy: composed[1] 
 # gain
 # $G = P A^{\mathsf T} P_{\text{pred}}^{-1}$, where $P_{\text{pred}}$ is the predicted covariance of the next
 # step, the smoother adds $G$ times the correction of the next pose. The robot has a map of four landmarks.
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-deeper-smoothing-a-lap"
+# *For the lecturer:* Ask at which step filter and smoother must agree. (At the last one.)
 
 # %% slideshow={"slide_type": "fragment"} tags=["code"]
 readings, part = list(run), {id: whole_map[id] for id in range(4)}
@@ -1162,6 +1218,9 @@ views.show(
 # By (05.6) information adds up, and a sum does not depend on the order of its terms. The next cell checks
 # (05.6) once, and then uses the measurements of the lap in another order.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-deeper-does-the-order-of-the-measurement"
+# *For the lecturer:* Ask before you run the cell whether the order would matter for a linear sensor.
+
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 x, p = np.array([1, 2, 0.4]), np.array([3, 2.5])
 H_there, P_before = jacobians.H_robot(x, p), np.diag([0.1, 0.2, 0.05]) ** 2
@@ -1185,6 +1244,10 @@ print(f"in another order, coordinates change by up to {1000 * np.abs(moved).max(
 # By (05.9) one large filter computes the same result as $N$ small filters. We check this with the filter of
 # lesson 06 and exact poses. The map of this filter must agree with our map, and its cross-covariances must be
 # zero.
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-deeper-one-filter-for-the-whole-map"
+# *For the lecturer:* The printed zero is exact and not the result of rounding: no step of the filter ever
+# adds to this block.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 large = MAK(np.zeros(3), np.zeros((3, 3)))

@@ -15,11 +15,7 @@
 # *For the lecturer:* The lesson answers three questions. Which line fits these points? Which points
 # belong to one wall? Which wall of the map is it? If you have only one lecture, take the two sections
 # on RANSAC, the Mahalanobis distance, and the gate. For a poll, use the questions on the vertical wall,
-# on the far wall, and on walls A and B. In the section on y = m x + c, somebody will propose exchanging
-# x and y where the slope is large. This method works, but its error still depends on the direction, and
-# the estimate is discontinuous where x and y are exchanged. In the section on recall, ask which of the
-# two errors is worse for a map: a missed wall is observed again in the next scan; a false wall remains
-# in the map, and later observations are associated with it.
+# on the far wall, and on walls A and B.
 
 # %% slideshow={"slide_type": "skip"} tags=["folded"]
 from dataclasses import replace
@@ -65,6 +61,10 @@ ROBOT = Poses("robot", [HOME])
 # places, can be *distinguished* from others, and *stands still*. The environment should contain *many*
 # such landmarks.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-what-a-landmark-must-be"
+# *For the lecturer:* Ask for landmarks in this lecture room, and test each of them against the words in
+# italics. Chairs fail, because they do not stand still.
+
 # %% slideshow={"slide_type": "subslide"} tags=["folded"]
 rng = np.random.default_rng(8)
 legs, rooms = worlds.table_legs(), worlds.situation_1()
@@ -97,6 +97,11 @@ views.show(fig, "On the left, isolated readings in front of the walls; on the ri
 #
 # with the slope $m$ and the intercept $c$ that minimise the sum of the squared errors of $y$. This is
 # *ordinary least squares*, or linear regression.
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-line-fitting-by-y-m-x-c"
+# *For the lecturer:* Somebody will propose exchanging $x$ and $y$ where the slope is large. This method
+# works, but its error still depends on the direction, and the estimate is discontinuous where $x$ and $y$ are
+# exchanged.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -353,6 +358,10 @@ print(f"minimum at {lowest:.2f}°, the library {found_alpha:.2f}°")
 # $\sigma_r$ they do not cancel, and the fit weights each reading by $1/\sigma_i^2$ (*weighted* total least
 # squares). To compute $R$, to first order, we also need the derivative of $e$ with respect to the line.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-the-covariance-of-a-line"
+# *For the lecturer:* Let the class multiply the two formulas to see that the range and the angle of incidence
+# cancel. For the poll, hold a ruler at one of its ends and ask how the other end moves.
+
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
 t, p_x, p_y = sp.symbols("t p_x p_y", real=True)
 c, s = sp.cos(alpha), sp.sin(alpha)
@@ -420,6 +429,7 @@ ask(
 
 
 # %% slideshow={"slide_type": "fragment"} answers="08-streak"
+# fit many lines to one wall that is seen between two angles
 def fits_of(first, last, count=400, truth=(3.0, 0.4), n=90):
     """Errors of fits (count, 2) to one wall, seen between two angles from its normal; their R."""
     rng, slant = np.random.default_rng(4), np.radians(np.linspace(first, last, n))
@@ -487,6 +497,10 @@ sizes = nees(errors, R_each)
 # two readings, so it is free of outliers with the probability $w^2$ (nearly, if there are many
 # readings). All $k$ samples contain an outlier with the probability $(1 - w^2)^k$. We want at least one
 # sample free of outliers with the probability $q$, say 99 %:
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-ransac"
+# *For the lecturer:* Let the class estimate the number of trials for $w = 0.5$. (17.) Point at the last
+# column of the output: $k$ guarantees a sample without outliers, not a good line.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 w, q, k = sp.symbols("w q k", positive=True)
@@ -574,6 +588,10 @@ for number in (enough // 3, enough, 3 * enough):
 # and neighbours often belong to the same wall. So Smolec draws *one* reading, and takes the 25 readings
 # around it as the sample. He accepts their line as a wall if at least 21 of them are inliers, that is,
 # within 15 mm of the line.
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-samples-from-neighbours"
+# *For the lecturer:* Ask for σ at 4 m before the poll. On the slider, stop at a corner and in a doorway, and
+# let the class predict the verdict.
 
 # %% slideshow={"slide_type": "subslide"}
 ask(
@@ -688,6 +706,9 @@ views.show(
 # further inlier next to the sample, refits, and continues until the wall ends (*region growing*). How
 # much does the growing reduce the error?
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-refit-and-grow"
+# *For the lecturer:* Let students who chose 2 and 4 argue with each other: each has one half of the answer.
+
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "08-length",
@@ -774,7 +795,12 @@ views.show(fig, f"The same scan as {len(pieces)} short pieces, and as {len(walls
 # three numbers, and keep the false share small? What changes with a denser scan, and with a sparser
 # scan?
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-recall-and-false-lines"
+# *For the lecturer:* Ask which of the two errors is worse for a map. A missed wall is observed again in the
+# next scan; a false wall remains in the map, and later observations are associated with it.
+
 # %% slideshow={"slide_type": "fragment"}
+# one scan of the rooms, its lines, their recall and false share
 BY_THE_WALL = np.array([0.3, -1.1, 0.2])
 GROWN = "grown lines, 2.8 σ"
 
@@ -872,6 +898,10 @@ ROOM = [FURNISHED, *(extraction.evaluate_world(worlds.room(), None, 12, k) for k
 # the differences lie in its 99 % ellipse. Do the measured differences agree with this? (This test
 # cannot show an error that all revolutions share.)
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-a-real-scan"
+# *For the lecturer:* Ask which errors this test cannot show. (Those that all revolutions share.) If time is
+# short, show the two pictures only.
+
 # %% slideshow={"slide_type": "subslide"} tags=["folded"]
 rng = np.random.default_rng(1)
 simulated_turns = [RPLIDAR_A2.scan(worlds.room(), HOME, rng) for _ in range(8)]
@@ -955,6 +985,10 @@ for name, turns_of, share in (
 # This holds because the errors of the two lines are independent: no reading is used for both. Guess
 # first: which corners of the room below have the largest uncertainty?
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-part-two-corners-and-data-association"
+# *For the lecturer:* Let the class choose the worst corner before you show the ellipses, and ask for the
+# reason. (A short wall has an uncertain direction.)
+
 # %% slideshow={"slide_type": "subslide"} tags=["folded"]
 world, rng = worlds.situation_2(), np.random.default_rng(9)
 scan = LIDAR.scan(world, HOME, rng)
@@ -995,6 +1029,10 @@ views.show(fig, alt)
 # EKF-SLAM can use any type of landmark if we define its measurement model $h$ and the Jacobian $H$. A
 # wall of the map is $l = (\rho, \alpha)$ in the world frame. Which measurement of this wall does a
 # robot at $x$, $y$, $\theta$ expect?
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-the-measurement-model-of-a-wall"
+# *For the lecturer:* Walk along a wall with closed eyes and one hand on it: neither its distance nor its
+# direction changes. Ask which second wall would help.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -1089,6 +1127,10 @@ compare(z_expected, models.h_line(POSE, WALL))
 # | wall A | 3.00 m, 0.30 rad | −0.02 m, −0.25 rad |
 # | wall B | 2.78 m, 0.05 rad | +0.20 m, 0.00 rad |
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-data-association"
+# *For the lecturer:* If the class votes for B, write all distances in centimetres: now the nearest wall is A.
+# An answer that depends on the unit cannot be right.
+
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "08-which",
@@ -1105,6 +1147,7 @@ ask(
 )
 
 # %% slideshow={"slide_type": "fragment"}
+# S of both walls, from σ of the position and of the heading
 EXPECTED, SEEN = np.array([[3.0, 0.3], [2.78, 0.05]]), np.array([2.98, 0.05])
 R = np.diag([0.02, 0.01]) ** 2
 
@@ -1238,6 +1281,10 @@ for k, row in enumerate(d2):
 # of the map: 0.20 rad to the left of B, and 0.27 rad to the right of C. To which of them does it
 # belong?
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-joint-compatibility"
+# *For the lecturer:* Ask which heading error each of the two associations of the second observation requires,
+# and compare it with that of the first observation. If time is short, leave out this section.
+
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
 def rough_turn():
@@ -1279,6 +1326,9 @@ print("A and B jointly {:.1f}, A and C {:.1f}; gate {:.2f}".format(*jointly, chi
 # In the experiment below, the robot makes 40 scans on a small loop in a furnished room, where round
 # pillars look flat from some positions.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-track-management"
+# *For the lecturer:* Ask what a large $N$ costs: true walls that are seen only briefly never enter the map.
+
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "08-trial",
@@ -1296,6 +1346,7 @@ ask(
 
 
 # %% slideshow={"slide_type": "subslide"} answers="08-trial"
+# the walls that N observations confirm, and which of them are false
 OBSERVED = wall_confirmation.observed_walls(worlds.room())
 
 
@@ -1371,6 +1422,10 @@ for (n, misses), false in table.items():
 # **Read next:** V. Nguyen, S. Gächter, A. Martinelli, N. Tomatis and R. Siegwart, "A comparison of line extraction
 # algorithms using 2D range data for indoor mobile robotics", *Autonomous Robots* 23(2), 2007.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-literature"
+# *For the lecturer:* Fischler and Bolles invented RANSAC for a camera that locates itself by known landmarks,
+# not for lines.
+
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=1
 # ## What you can do now
 #
@@ -1387,6 +1442,9 @@ for (n, misses), false in table.items():
 # association](../exercises/ex08_landmarks_from_scans.ipynb). You fit a line, find where two walls meet, associate
 # observations with walls, find pillars, and segment a whole scan.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-what-you-can-do-now"
+# *For the lecturer:* Ask which decision of this lesson the filter cannot undo later. (An association.)
+
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Deeper: split and merge
 #
@@ -1396,6 +1454,9 @@ for (n, misses), false in table.items():
 # threshold, **split** the chain at this reading, and continue with both parts. At the end, **merge**
 # neighbouring parts that one line fits. (A third classic, the *Hough transform*, lets each reading vote
 # for all lines through it.)
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-deeper-split-and-merge"
+# *For the lecturer:* Ask what a single outlier in the middle of a wall does to each of the two methods.
 
 
 # %% slideshow={"slide_type": "subslide"} tags=["code"]
@@ -1438,6 +1499,10 @@ for band in (0.03, 0.06, 0.15):
 #
 # We take 120 scans of situation 2, and compare each corner with the nearest true one. For two corners at the ends of
 # one wall, we also correlate their errors across that wall.
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-deeper-are-the-corners-consistent"
+# *For the lecturer:* Tilt a ruler about its middle: both ends move, in opposite directions. This is the
+# negative correlation in the output.
 
 
 # %% slideshow={"slide_type": "fragment"} tags=["folded"]
@@ -1488,6 +1553,10 @@ print("correlation of the two corners of a wall:", *(f"{each:.2f}" for each in s
 # uses the range and bearing of the foot point as a measurement, like those of any point landmark. To
 # compute the foot point of a wall, the robot needs the position of the origin in its own frame, and it
 # uses its estimated pose for this computation.
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-deeper-foot-points-as-measurements"
+# *For the lecturer:* Most students choose "as before". Let them find the place in the program where the
+# estimated pose enters the measurement.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -1596,6 +1665,10 @@ by_foot, by_line = (after(10, 0.5, as_foot) for as_foot in (True, False))
 # Change the threshold, and the number of beams in a revolution. Can you find all 20 legs without false
 # spikes?
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-deeper-spikes"
+# *For the lecturer:* Let the class choose the threshold by vote; every choice misses legs or finds false
+# ones.
+
 
 # %% slideshow={"slide_type": "subslide"} tags=["folded"]
 def spikes_in(world, jump=0.5, beams=400):
@@ -1647,6 +1720,10 @@ in_rooms = {jump: len(spikes_in(rooms, jump)[1]) for jump in (0.5, 0.05)}
 # Plain total least squares has another bias. A range error moves a point *along* the wall, too, so the residuals and
 # the positions $t_i$ are correlated. The library computes $t_i$ from the bearing of the beam alone. We compare the
 # three fits on one wall, seen between two angles from its normal:
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-deeper-the-bias-of-a-line"
+# *For the lecturer:* Ask why a bias matters although it is small compared with σ. (Averaging reduces σ, but
+# not the bias.)
 
 
 # %% slideshow={"slide_type": "fragment"} tags=["folded", "nbval-check-output"]
