@@ -15,7 +15,8 @@ from tests.course.setup import ROOT
 
 GUIDES = ["README.md", "slamlab/README.md", "course/handout/README.md", "CONTRIBUTING.md"]
 GUIDES += [f"docs/{path.name}" for path in sorted((ROOT / "docs").glob("*.md"))]
-LESSONS = [f"course/lessons/{path.name}" for path in sorted(ROOT.glob("course/lessons/*.py"))]
+LESSONS = ["course/lessons/*.py", "course/appendices/*.py", "course/exercises/*/notebook.py"]
+LESSONS = [str(path.relative_to(ROOT)) for each in LESSONS for path in sorted(ROOT.glob(each))]
 # not "slamlab run: ...", which is a message
 BLOCK = re.compile(r"^(?: {4,}|# )?(?:\.venv/bin/)?slamlab ((?!\w+:).+)$", re.MULTILINE)
 INLINE = re.compile(r"`(?:\.venv/bin/)?slamlab\s+([^`]+)`")
@@ -122,3 +123,5 @@ def test_what_is_only_parsed_has_a_reason_and_the_rest_is_run():
     for words in ONLY_PARSED:
         everything = commands + [command for guide in GUIDES for command in inline(guide)]
         assert any(re.match(words, command) for command in everything), words
+    for test in re.findall(r"tests/[\w/.]+", " ".join(ONLY_PARSED.values())):
+        assert (ROOT / test).exists(), test
