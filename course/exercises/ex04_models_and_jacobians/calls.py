@@ -14,16 +14,16 @@ def call_both_jacobians(functions, inputs):
     }
 
 
-def two_results(function, **shapes):
-    """Make the call of a function with two named results; it returns {name: (n, *shape)}. It raises
+def several_results(function, **shapes):
+    """Make the call of a function with named results; it returns {name: (n, *shape)}. It raises
     StudentError "malformed" for other shapes."""
 
     def run(functions, inputs):
-        pairs = [functions[function](*row) for row in argument_rows(inputs)]
-        if any(not isinstance(pair, tuple | list) or len(pair) != 2 for pair in pairs):
+        found = [functions[function](*row) for row in argument_rows(inputs)]
+        if any(not isinstance(one, tuple | list) or len(one) != len(shapes) for one in found):
             raise StudentError("malformed", f"{function} must end with: return {', '.join(shapes)}")
         return {
-            name: _stack([pair[k] for pair in pairs], f"{function}'s {name}", shape)
+            name: _stack([one[k] for one in found], f"{function}'s {name}", shape)
             for k, (name, shape) in enumerate(shapes.items())
         }
 
@@ -44,11 +44,12 @@ def _stack(results, what, shape):
 CALLS = {
     "04-h-robot": FunctionCall(("H_robot",)),
     "04-jxr-jz": FunctionCall(("J_xr", "J_z"), run=call_both_jacobians),
-    "04-new-landmark": FunctionCall(
-        ("new_landmark",), run=two_results("new_landmark", P_nn=(2, 2), P_rn=(3, 2))
+    "04-wheels": FunctionCall(
+        ("predict_wheels",),
+        run=several_results("predict_wheels", x=(3,), P=(3, 3), A=(3, 3), W=(3, 2)),
     ),
-    "04-camera": FunctionCall(("camera",), run=two_results("camera", u=(), H=(5,))),
+    "04-camera": FunctionCall(("camera",), run=several_results("camera", u=(), H=(5,))),
     "04-unsure-drive": FunctionCall(
-        ("unsure_drive",), run=two_results("unsure_drive", mean=(3,), covariance=(3, 3))
+        ("unsure_drive",), run=several_results("unsure_drive", mean=(3,), covariance=(3, 3))
     ),
 }

@@ -1,9 +1,9 @@
 # %% [markdown]
 # # Exercise 04 · Motion and measurement models, Jacobians and the EKF
 #
-# **You will be able to** write the Jacobians of EKF-SLAM as functions, derive the Jacobian of a new
-# sensor, compute the covariance of a new landmark and its cross-covariance with the pose, and
-# predict a pose with an uncertain heading better than linearisation does.
+# **You will be able to** write the Jacobians of EKF-SLAM as functions, derive and write the
+# prediction of an EKF, derive the Jacobian of a new sensor, and predict a pose with an uncertain
+# heading better than linearisation does.
 #
 # **60 minutes. Before:** lesson [04 · Motion and measurement models, Jacobians and the EKF](../notebooks/04_models_and_jacobians.ipynb).
 #
@@ -102,20 +102,6 @@ def _():
 #
 # $$p_x = x + r\cos(\theta+\beta), \qquad p_y = y + r\sin(\theta+\beta)$$
 
-# %%
-ask(
-    "ex04-lever",
-    "The estimated heading of the robot has an error of 0.01 rad, and everything else is exact. **How "
-    "large is the position error of a new landmark at a range of 8 m?**",
-    {
-        "1 cm, as at any range": "the error is 1 cm at a range of 1 m. The position error is the angle times the range.",
-        "8 cm, along the line of sight": "the range is exact. A heading error rotates the landmark about the robot.",
-        "8 cm, across the line of sight": "the error rotates the landmark about the robot, on a circle with the radius 8 m. The bearing has no effect on the size of the error.",
-        "it depends on whether the landmark is ahead or to the side": "the direction of the error depends on the bearing, but its size does not.",
-    },
-    right="8 cm, across the line of sight",
-)
-
 # %% [markdown]
 # **Your task.** Return the Jacobians of $g$ with respect to the pose, $J_{\mathrm r}$ (2 × 3, `J_xr` in the
 # code), and with respect to the measurement, $J_z$ (2 × 2), for any range $r > 0$. The check allows
@@ -150,59 +136,110 @@ def J_z(x, z):
 check("04-jxr-jz")
 
 # %% [markdown]
-# ## 3 · The covariance of a new landmark
-#
-# The pose has the covariance $P$ (3 × 3), the measurement has the covariance $R$ (2 × 2), and the two errors
-# are uncorrelated. The landmark that is computed from both has the covariance $P_{nn}$ (2 × 2). Its
-# cross-covariance with the pose is $P_{\mathrm rn}$ (3 × 2). The rows of $P_{\mathrm rn}$ belong to $x$, $y$,
-# $\theta$ of the robot, its columns to $x$ and $y$ of the landmark.
-#
-# **Your task.** Return both matrices, to first order, with your `J_xr` and `J_z`. (You must solve
-# task 2 first.) `P` and `R` may be full matrices: the errors of $x$, $y$ and $\theta$ may be
-# correlated, and the errors of range and bearing may be correlated. $\sigma$ of the heading and
-# $\sigma$ of the bearing are at most 0.02 rad. The check allows errors of 0.1 % of the largest
-# entry of each matrix, so effects of higher order are negligible. The scatter of a million samples
-# is too large.
+# A heading error of 0.01 rad moves the landmark. Compare this change with the prediction of your `J_xr`:
 
 
 # %%
-def new_landmark(x, P, z, R):
-    """Covariance of a new landmark, and its cross-covariance with the pose.
+@attempt
+def _():
+    x, z, error = np.array([1, 2, 0.3]), np.array([8, 0.5]), np.array([0, 0, 0.01])
+    print("g changes by  ", (g(x + error, z) - g(x, z)).round(4))
+    print("J_xr predicts ", (J_xr(x, z) @ error).round(4))
 
-    x : (3,) pose;  P : (3, 3) its covariance;  z : (2,) range, bearing;  R : (2, 2) its covariance
-    returns P_nn (2, 2) and P_rn (3, 2)
+
+# %% [markdown]
+# ## 3 · The prediction of a robot with two wheels
+#
+# A robot has two driven wheels at the distance $B$ from each other. In one step the left wheel rolls
+# $s_1$ and the right wheel $s_2$, both at a constant speed. So both wheels and the middle of the
+# axle move on arcs about one centre, which lies on the line of the axle. By (01.2) the robot turns
+# by $\Delta\theta = (s_2 - s_1)/B$. The pose is that of the middle of the axle.
+#
+# Each wheel slips at random. The error of its distance has the variance $k^2$ times the distance
+# that this wheel rolls, whether forwards or backwards, and the errors of both wheels are
+# independent.
+
+# %%
+ask(
+    "ex04-bend",
+    "A robot drives 1 m straight ahead, but its right wheel rolls 1 mm farther than measured. "
+    "**Where does it end, compared with the estimated end?** (The wheels are 0.2 m apart.)",
+    {
+        "0.5 mm farther ahead; only its heading is wrong": "this would be right if it turned at the end of the step. It turns during the whole step.",
+        "0.5 mm farther ahead and 2.5 mm to the left": "the heading error grows from 0 to 5 mrad, so on average it is 2.5 mrad over 1 m.",
+        "0.5 mm farther ahead and 5 mm to the left": "this would be right if the robot had its last heading, with an error of 5 mrad, from the start.",
+        "1 mm farther ahead and 2.5 mm to the right": "the middle moves by half of what one wheel rolls. The right wheel rolls farther, so the robot turns to the left.",
+    },
+    right="0.5 mm farther ahead and 2.5 mm to the left",
+)
+
+# %% [markdown]
+# **Your task.** Derive the end of the arc $f(x, s)$, its Jacobians $A = \partial f/\partial x$ and $W =
+# \partial f/\partial s$, and the covariance $C$ of the errors of $s$. Return the prediction of the EKF
+# (04.7), and both Jacobians. The wheels roll equally far, or the robot turns by at least 0.01 rad.
+# Wheels may stand still, roll backwards, or turn the robot by more than a full turn. $B$ may be a
+# millimetre or a thousand kilometres. You may wrap $\theta$ or not.
+#
+# | what is judged | allowed error | points |
+# | --- | --- | --- |
+# | `x` | 0.001 % of its largest entry | 1 |
+# | `A`, also for large coordinates and headings | rounding errors only | 1 |
+# | `W`, also for small and large robots | $10^{-8}$ of its largest entry | 1 |
+# | `P`, computed with the right `A` and `W` or with yours | 0.001 % of its largest entry | 1 |
+
+
+# %%
+def predict_wheels(x, P, s, B, k):
+    """EKF prediction of a robot with two wheels.
+
+    x : (3,) pose;  P : (3, 3) its covariance;  s : (2,) distances of the left and right wheel [m]
+    B : distance between the wheels [m];  k : noise of a wheel [√m]
+    returns x (3,), P (3, 3) after the step, A (3, 3), W (3, 2)
     """
     ### BEGIN SOLUTION
-    Jxr, Jz = J_xr(x, z), J_z(x, z)
-    P_nn = Jxr @ P @ Jxr.T + Jz @ R @ Jz.T
-    P_rn = P @ Jxr.T
-    return P_nn, P_rn
+    d = (s[0] + s[1]) / 2
+    a = (s[1] - s[0]) / B
+    heading = x[2] + a / 2  # of the chord; ratio is chord divided by arc, slope its derivative by a
+    ratio = np.sinc(a / (2 * np.pi))
+    slope = (np.cos(a / 2) - ratio) / a if a else 0.0
+    cos, sin = np.cos(heading), np.sin(heading)
+    A = np.eye(3)
+    A[:2, 2] = d * ratio * np.array([-sin, cos])
+    V = np.array([  # by d and a
+        [ratio * cos, d * (slope * cos - ratio * sin / 2)],
+        [ratio * sin, d * (slope * sin + ratio * cos / 2)],
+        [0, 1],
+    ])  # fmt: skip
+    W = V @ np.array([[0.5, 0.5], [-1 / B, 1 / B]])
+    C = k**2 * np.diag(np.abs(s))
+    step = np.array([d * ratio * cos, d * ratio * sin, a])
+    P_end = A @ P @ A.T + W @ C @ W.T
+    return x + step, P_end, A, W
     ### END SOLUTION
 
 
 # %%
-check("04-new-landmark")
+check("04-wheels")
 
 # %% [markdown]
-# The figure shows 500 samples of the landmark. Each sample is computed from a random pose with the
-# covariance $P$ and a random measurement with the covariance $R$. About 95 % of the samples should
-# lie inside your ellipse.
+# The figure shows 500 end points of a robot whose wheels roll 0.9 m and 1.1 m. About 95 % of them
+# should lie inside your ellipse.
 
 
 # %%
 @attempt
 def _():
     rng = np.random.default_rng(4)
-    x, P = np.array([0, 0, 0.4]), np.diag([0.15, 0.15, 0.06]) ** 2
-    z, R = np.array([5.0, 0.6]), np.diag([0.1, 0.02]) ** 2
-    P_nn, _ = new_landmark(x, P, z, R)
-    poses, zs = rng.multivariate_normal(x, P, 500), rng.multivariate_normal(z, R, 500)
-    placed = np.array([g(pose, one) for pose, one in zip(poses, zs, strict=True)])
-    line = layers.Poses("the line of sight", [x, [*g(x, z), x[2] + z[1]]])
-    fig, _ = views.cloud(placed, {"your P_nn, 95 %": P_nn}, layers=[line], centre=g(x, z))
-    views.show(
-        fig, alt=f"{len(placed)} samples of the landmark's position, and the ellipse of your P_nn."
-    )
+    x, P = np.array([0, 0, 0.4]), np.diag([0.03, 0.03, 0.06]) ** 2
+    s, B, k = np.array([0.9, 1.1]), 0.4, 0.04
+    starts = rng.multivariate_normal(x, P, 500)
+    rolled = s + k * np.sqrt(s) * rng.standard_normal((500, 2))
+    ends = [predict_wheels(*each, B, k)[0] for each in zip(starts, [P] * 500, rolled, strict=True)]
+    end, P_end, _, _ = predict_wheels(x, P, s, B, k)
+    path = layers.Poses("start and estimated end", [x, end])
+    ellipse = {"your P, 95 %": P_end[:2, :2]}
+    fig, _ = views.cloud(np.array(ends), ellipse, layers=[path], centre=end)
+    views.show(fig, alt=f"{len(ends)} end points of a robot with two wheels, and your ellipse.")
 
 
 # %% [markdown]
