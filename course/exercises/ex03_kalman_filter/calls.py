@@ -57,14 +57,20 @@ def _filter_shapes(given):
     return {"xs": (steps, *given["x"].shape), "Ps": (steps, *given["P"].shape)}
 
 
+def _test_shapes(given):
+    return {"nees": (3,), "nis": (3,), "wrong": (2,)}
+
+
 def _matrix_shapes(given):
     return dict.fromkeys(("F", "Q", "H"), (2, 2))
 
 
 CALLS = {
-    "03-gain": FunctionCall(("gain",)),
     "03-update": FunctionCall(("update",), named_results("x", "P", shape=_estimate_shapes)),
     "03-filter": FunctionCall(("kalman_filter",), named_results("xs", "Ps", shape=_filter_shapes)),
+    "03-consistent": FunctionCall(
+        ("consistency",), named_results("nees", "nis", "wrong", shape=_test_shapes)
+    ),
     "03-capacitor": FunctionCall(
         ("capacitor",), named_results("F", "Q", "H", shape=_matrix_shapes)
     ),

@@ -1,10 +1,10 @@
 """Exercise 03, the Kalman filter. In this order: ``beliefs`` (random inputs, judged by samples and
-least squares), ``gain``, ``update``, ``filter``, ``capacitor``, ``ghosts`` (outliers)."""
+least squares), ``update``, ``filter``, ``consistent``, ``capacitor``, ``ghosts`` (outliers)."""
 
 from classroom.exercises.exercise import Exercise
 from course.exercises.ex03_kalman_filter.capacitor.task import CAPACITOR
+from course.exercises.ex03_kalman_filter.consistent.task import CONSISTENT
 from course.exercises.ex03_kalman_filter.filter.task import FILTER
-from course.exercises.ex03_kalman_filter.gain.task import GAIN
 from course.exercises.ex03_kalman_filter.ghosts.task import WARY
 from course.exercises.ex03_kalman_filter.update.task import UPDATE
 
@@ -12,7 +12,7 @@ EXERCISE = Exercise(
     id="03",
     notebook="03_kalman_filter",
     title="The Kalman filter",
-    tasks=(GAIN, UPDATE, FILTER, CAPACITOR, WARY),
+    tasks=(UPDATE, FILTER, CONSISTENT, CAPACITOR, WARY),
     calls="course.exercises.ex03_kalman_filter.calls",
     allows=("slamlab.layers", "slamlab.views"),
     answers=("slamlab.filters", "slamlab.estimators", "slamlab.evaluation"),

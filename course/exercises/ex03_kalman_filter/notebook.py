@@ -1,24 +1,25 @@
 # %% [markdown]
 # # Exercise 03 · The Kalman filter
 #
-# **You will be able to** compute the Kalman gain in code, write the filter around it, derive $F$,
-# $Q$ and $H$ of a new system, and filter measurements that contain outliers.
+# **You will be able to** write the Kalman filter, test whether a filter is consistent and which of
+# its noises is wrong, derive $F$, $Q$ and $H$ of a new system, and filter measurements with outliers.
 #
 # **60 minutes. Before:** lesson [03 · The Kalman filter](../notebooks/03_kalman_filter.ipynb).
 #
 # Replace each `raise NotImplementedError(...)` by your code, run the cell, then run the check below
 # it. You can repeat this as often as you like. A check draws random inputs and names the law that
 # your answer breaks. The check does not read your formulas. It compares your results with statistics
-# of samples and with least-squares estimates. When you are stuck, `hint("03-gain")` asks a question
+# of samples and with least-squares estimates. When you are stuck, `hint("03-update")` asks a question
 # about your mistake; run it again for more.
 #
 # A belief is an estimate `x` (n,) of the state and the covariance `P` (n, n) of its error. In tasks
-# 1 to 3 your functions must work for all sizes $n$ and $m$, where $m$ is the number of measured
+# 1 and 2 your functions must work for all sizes $n$ and $m$, where $m$ is the number of measured
 # values. $m$ may be larger than $n$. $P$, $Q$ and $R$ are symmetric and positive definite. A
 # function must not change its arguments, because its caller still needs them.
 
 # %%
 import numpy as np
+from scipy.special import gammaincinv
 
 from classroom.checks import ask, attempt, check
 from slamlab import views
@@ -57,12 +58,10 @@ CART = {
 START = {"x": np.array([2.0, 0.5]), "P": np.diag([0.4, 0.3]) ** 2}
 
 # %% [markdown]
-# ## 1 · The Kalman gain
+# ## 1 · The update
 #
 # The update corrects the estimate by $K v$ (03.16). If $K$ is too small, the update makes little
-# use of the measurement. If $K$ is too large, the update adds much of the measurement noise. The
-# Kalman gain minimises the mean square error, summed over all states. By (03.26) it also minimises
-# the mean square error of each single state.
+# use of the measurement. If $K$ is too large, the update adds much of the measurement noise.
 
 # %%
 ask(
@@ -81,54 +80,8 @@ ask(
 )
 
 # %% [markdown]
-# **Your task.** Return the Kalman gain $K$ (n, m). $H$ may be any matrix, also zero. If $H$ is
-# zero, the measurement does not depend on the state. The check compares your $K$ with the gain that
-# minimises the mean square error of samples.
-
-
-# %% name="gain"
-def gain(P, H, R):
-    """The Kalman gain, which minimises the mean square error.
-
-    P : (n, n) prior covariance;  H : (m, n);  R : (m, m);  returns K (n, m)
-    """
-    ### BEGIN SOLUTION
-    S = H @ P @ H.T + R
-    return P @ H.T @ np.linalg.inv(S)
-    ### END SOLUTION
-
-
-# %%
-check("03-gain")
-
-# %% [markdown]
-# The figure corrects 20 000 simulated carts with your gain, multiplied by a factor from 0 to 2. At
-# which factor must the mean square error be smallest?
-
-
-# %% name="too-much-or-too-little"
-@attempt
-def _():
-    rng = np.random.default_rng(4)
-    H, R, P = CART["H"], CART["R"], np.array([[0.5, 0.2], [0.2, 0.15]])
-    errors = rng.multivariate_normal([0, 0], P, 20_000)
-    innovations = errors @ H.T + rng.multivariate_normal([0], R, 20_000)
-    factors = np.linspace(0, 2, 21)
-    left = [
-        np.mean(np.sum((errors - innovations @ (factor * gain(P, H, R)).T) ** 2, axis=1))
-        for factor in factors
-    ]
-    fig, ax = views.chart("factor on K [1]", "mean square error [m² and m²/s²]", size=(8, 3.6))
-    ax.plot(factors, left, color=views.COLOURS["corrected"])
-    lowest = factors[np.argmin(left)]
-    views.show(fig, alt=f"A curve over the factor on your gain, lowest at {lowest:.1f}.")
-
-
-# %% [markdown]
-# ## 2 · The update
-#
-# **Your task.** Return the posterior after a measurement, `x` (n,) and `P` (n, n). Use your `gain`
-# and the given `innovation`, or write all lines yourself. You can compute $P$ by (03.18), by
+# **Your task.** Return the posterior after a measurement, `x` (n,) and `P` (n, n). You can use the
+# given `innovation`. You can compute $P$ by (03.18), by
 # (03.20) or by $(I - K H) P$. With the Kalman gain, all three results are equal. Use every
 # measurement, however large its innovation is. The check compares your `x` and `P` with the
 # weighted least-squares estimate and its covariance.
@@ -143,7 +96,7 @@ def update(x, P, z, H, R):
     """
     ### BEGIN SOLUTION
     v, S = innovation(x, P, z, H, R)
-    K = gain(P, H, R)
+    K = P @ H.T @ np.linalg.inv(S)
     return x + K @ v, P - K @ S @ K.T
     ### END SOLUTION
 
@@ -184,10 +137,10 @@ def _():
 # decreased.
 
 # %% [markdown]
-# ## 3 · The Kalman filter on a run
+# ## 2 · The Kalman filter on a run
 #
 # **Your task.** Run the filter over a whole run, with the given `predict` and with your `update`.
-# (You must solve task 2 first.) The arguments `x` and `P` are the belief *before* the first step.
+# (You must solve task 1 first.) The arguments `x` and `P` are the belief *before* the first step.
 # Row $k$ of `zs` is measured after step $k$, and `zs` has at least one row. Return one posterior
 # for each measurement. Do not return the initial belief.
 #
@@ -242,6 +195,84 @@ def _():
     ax.fill_between(seconds, xs[:, 1] - two_sigma, xs[:, 1] + two_sigma, color=blue, alpha=0.2)
     views.legend(ax)
     views.show(fig, alt="Your speed with its band of two σ, and the true speed beside it.")
+
+
+# %% [markdown]
+# ## 3 · Is the filter consistent?
+#
+# Two logs of a filter show whether its covariances are right. The first log contains $N$ independent
+# runs at one time: the error $\tilde x$ of each run, which only a simulation knows, and the reported
+# $P$. The second log contains one run: the innovation $v$ of each step, one number, and its reported
+# variance $S$. At most one of $Q$ and $R$ in this run is wrong. Its $\sigma$ is then too small or
+# too large, by a factor of at least 1.6.
+#
+# **Your task.** Return the mean NEES (03.24) of the runs and the mean NIS (03.25) of the steps, each
+# followed by both bounds of its 95 % χ² interval, as in the lesson. Return also which noise is wrong.
+# No function of the lesson states this. Which statistic of the innovations shows that a filter
+# follows too slowly, and does a filter with too small a $Q$ follow too slowly, or one with too small
+# an $R$?
+#
+# | what is judged | allowed error | points |
+# | --- | --- | --- |
+# | the means of `nees` and `nis` | 0.001 % | 1 |
+# | the intervals of `nees` and `nis`, of 0.95 probability, 0.025 on each side | 0.001 % | 1 |
+# | `wrong`, in runs of 400 steps of which the statistics show it clearly | all right | 1 |
+
+
+# %% name="quantile"
+def chi2_quantile(p, degrees):
+    """The number below which χ² with these degrees of freedom lies with the probability p."""
+    return 2 * gammaincinv(degrees / 2, p)
+
+
+# %% name="consistency"
+def consistency(errors, Ps, vs, Ss):
+    """Tests of consistency, and which noise is wrong.
+
+    errors : (N, n), Ps : (N, n, n) of N runs;  vs : (steps,), Ss : (steps,) of one run
+    returns nees (3,), nis (3,) : mean, lower and upper bound;  wrong (2,) : for Q and for R,
+    1 if it is too small, -1 if it is too large, 0 otherwise
+    """
+    ### BEGIN SOLUTION
+    N, n = errors.shape
+    steps = len(vs)
+    total = np.einsum("ki,kij,kj", errors, np.linalg.inv(Ps), errors)
+    white = vs / np.sqrt(Ss)
+    nis = np.mean(white**2)
+    tails = [0.025, 0.975]
+    nees_interval = chi2_quantile(tails, n * N) / N
+    nis_interval = chi2_quantile(tails, steps) / steps
+    follows = np.mean(white[1:] * white[:-1])  # > 0: the filter follows too slowly
+    size = int(nis > nis_interval[1]) - int(nis < nis_interval[0])
+    wrong = [size, 0] if size * follows > 0 else [0, size]
+    return [total / N, *nees_interval], [nis, *nis_interval], wrong
+    ### END SOLUTION
+
+
+# %%
+check("03-consistent")
+
+# %% [markdown]
+# The next cell applies your functions to the cart. Its filter assumes noises that are wrong by the
+# factors in the table.
+
+
+# %% name="wrong-noises"
+@attempt
+def _():
+    F, Q, H, R = CART.values()
+    print("factors on σ: process, measurement   mean NIS   wrong")
+    for q, r in [(1, 1), (0.25, 1), (4, 1), (1, 0.5), (1, 2)]:
+        rng, truth, x, P = np.random.default_rng(7), START["x"], START["x"], START["P"]
+        vs, Ss = np.zeros((2, 400))
+        for k in range(400):
+            truth = F @ truth + rng.multivariate_normal([0, 0], Q)
+            z = H @ truth + rng.multivariate_normal([0], R)
+            x, P = predict(x, P, F, q**2 * Q)
+            vs[k], Ss[k] = (array.item() for array in innovation(x, P, z, H, r**2 * R))
+            x, P = update(x, P, z, H, r**2 * R)
+        _, nis, wrong = consistency(np.array([x - truth]), np.array([P]), vs, Ss)
+        print(f"{q:18} {r:12} {nis[0]:14.2f}    {np.array(wrong).tolist()}")
 
 
 # %% [markdown]

@@ -78,7 +78,7 @@ def update(x, P, z, H, R):
 # %% right: Joseph's form, symmetrised
 def update(x, P, z, H, R):
     v, S = innovation(x, P, z, H, R)
-    K = gain(P, H, R)
+    K = P @ H.T @ np.linalg.inv(H @ P @ H.T + R)
     rest = np.eye(x.size) - K @ H
     new = rest @ P @ rest.T + K @ R @ K.T
     return x + K @ v, (new + new.T) / 2
@@ -92,13 +92,13 @@ def update(x, P, z, H, R):
 
 # %% wrong: P by K S without transpose of K
 def update(x, P, z, H, R):
-    K = gain(P, H, R)
+    K = P @ H.T @ np.linalg.inv(H @ P @ H.T + R)
     v, S = innovation(x, P, z, H, R)
     return x + K @ v, P - K @ S @ K
 
 # %% wrong: x in place
 def update(x, P, z, H, R):
-    K = gain(P, H, R)
+    K = P @ H.T @ np.linalg.inv(H @ P @ H.T + R)
     v, S = innovation(x, P, z, H, R)
     x += K @ v
     P -= K @ S @ K.T
@@ -106,21 +106,21 @@ def update(x, P, z, H, R):
 
 # %% wrong: returned the other way round
 def update(x, P, z, H, R):
-    K = gain(P, H, R)
+    K = P @ H.T @ np.linalg.inv(H @ P @ H.T + R)
     v, S = innovation(x, P, z, H, R)
     return P - K @ S @ K.T, x + K @ v
 
 # %% wrong: P − K S
 def update(x, P, z, H, R):
     v, S = innovation(x, P, z, H, R)
-    K = gain(P, H, R)
+    K = P @ H.T @ np.linalg.inv(H @ P @ H.T + R)
     return x + K @ v, P - K @ S @ K.T / 2
 
 # %% wrong: numbers one after the other, R's diagonal only
 def update(x, P, z, H, R):
     for k in range(len(z)):
         h, r = H[k : k + 1], R[k : k + 1, k : k + 1]
-        K = gain(P, h, r)
+        K = P @ h.T / (h @ P @ h.T + r)
         x = x + K @ (z[k : k + 1] - h @ x)
         P = P - K @ h @ P
     return x, P
@@ -128,13 +128,13 @@ def update(x, P, z, H, R):
 # %% wrong: symmetrised without dividing by two
 def update(x, P, z, H, R):
     v, S = innovation(x, P, z, H, R)
-    K = gain(P, H, R)
+    K = P @ H.T @ np.linalg.inv(H @ P @ H.T + R)
     P = P - K @ S @ K.T
     return x + K @ v, P + P.T
 
 # %% wrong: unit matrix of hard-coded size
 def update(x, P, z, H, R):
-    K = gain(P, H, R)
+    K = P @ H.T @ np.linalg.inv(H @ P @ H.T + R)
     I = np.eye(2)
     return x + K @ (z - H @ x), (I - K @ H) @ P
 
@@ -143,7 +143,7 @@ def update(x, P, z, H, R):
     v, S = innovation(x, P, z, H, R)
     limit = 3 * np.sqrt(np.diag(S))
     v = np.clip(v, -limit, limit)
-    K = gain(P, H, R)
+    K = P @ H.T @ np.linalg.inv(H @ P @ H.T + R)
     return x + K @ v, P - K @ S @ K.T
 
 # %% wrong: whitened with the transposed root of R

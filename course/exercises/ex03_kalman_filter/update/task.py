@@ -72,7 +72,6 @@ UPDATE = Task(
         Probe("two measurements that contradict each other", _contradictory),
         Probe("a sensor with 1/20 of the σ", lambda rng: before_measurement(rng, precision=20)),
     ),
-    needs=("03-gain",),
     references=(Reference("update", "x P z H R", _posterior, "x P"),),
     begins=(
         "By which vector does the measurement differ from its prediction?",
