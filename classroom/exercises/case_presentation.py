@@ -80,13 +80,8 @@ PRESENTATIONS = {
         "noisy is called twice with rng = np.random.default_rng([seed, 0]), and then with "
         "np.random.default_rng([seed, 1]). It is given"
     ),
-    "05-map": CasePresentation(
-        returned="it returns a dict; its values p and P, by ascending ids, are"
-    ),
-    "07-corridor": CasePresentation(
-        "step is called once for each entry of d, q, i, z and r. Each call gets the x and P that "
-        "the previous call returned. The first call is given",
-        "the last call returns",
+    "05-alternate": CasePresentation(
+        returned="it returns xs, Ps and a dict; the p and P (here L) in the dict, by ascending ids:"
     ),
     "08-associate": CasePresentation(returned="it returns (−1 stands for None)"),
     "08-pillar": CasePresentation(

@@ -1,18 +1,18 @@
 """Exercise 05, localisation and mapping. In this order: ``sights`` (inputs, reference filter),
-``locate``, ``localise``, ``map``, ``ranges`` (ranges only), ``lost`` (global localisation)."""
+``locate``, ``localise``, ``alternate``, ``ranges`` (ranges only), ``lost`` (unknown heading)."""
 
 from classroom.exercises.exercise import Exercise
+from course.exercises.ex05_localisation_and_mapping.alternate.task import ALTERNATE
 from course.exercises.ex05_localisation_and_mapping.localise.task import LOCALISE
 from course.exercises.ex05_localisation_and_mapping.locate.task import LOCATE
 from course.exercises.ex05_localisation_and_mapping.lost.task import LOST
-from course.exercises.ex05_localisation_and_mapping.map.task import MAP
 from course.exercises.ex05_localisation_and_mapping.ranges.task import RANGES
 
 EXERCISE = Exercise(
     id="05",
     notebook="05_localisation_and_mapping",
     title="Localisation and mapping, apart",
-    tasks=(LOCATE, LOCALISE, MAP, RANGES, LOST),
+    tasks=(LOCATE, LOCALISE, ALTERNATE, RANGES, LOST),
     calls="course.exercises.ex05_localisation_and_mapping.calls",
     allows=(
         "slamlab.geometry",

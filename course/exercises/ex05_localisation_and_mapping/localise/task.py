@@ -46,7 +46,8 @@ def _run(rng, steps, landmarks, unseen, step):
     }  # fmt: skip
 
 
-def _behind(rng):
+def behind(rng):
+    """Straight runs away from a landmark, whose bearings are near ±π."""
     inputs = runs(rng, 2, 5, 1, 0)
     inputs["drives"][..., 1] = 0
     x, d = inputs["x"], inputs["drives"][..., 0].cumsum(axis=1)
@@ -84,7 +85,7 @@ LOCALISE = Task(
         Probe("thirty steps", lambda rng: runs(rng, 1, 30, 6, 8)),
         Probe("a robot that drives backwards", lambda rng: runs(rng, 2, 4, 3, 1, (-0.7, -0.4))),
         Probe("a robot that only turns", lambda rng: runs(rng, 2, 4, 3, 1, (0.0, 0.0))),
-        Probe("a landmark right behind the robot", _behind),
+        Probe("a landmark right behind the robot", behind),
     ),
     shapes=lambda inputs: {
         "xs": (*inputs["ids"].shape, 3),
