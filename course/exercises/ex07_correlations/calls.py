@@ -1,9 +1,7 @@
-"""Function calls of exercise 07: one call per input; runs in the corridor step by step."""
-
-import numpy as np
+"""Function calls of exercise 07: one call per input."""
 
 from classroom.exercises.function_calls import FunctionCall, argument_rows
-from classroom.exercises.function_calls.several_values import split_values, stack_values
+from classroom.exercises.function_calls.several_values import stack_values
 
 
 def _call_two_updates(functions, inputs):
@@ -25,18 +23,13 @@ def _call_fuse(functions, inputs):
     return stack_values(calls, "fuse", {"x": (2,), "P": (2, 2)})
 
 
-def _call_step(functions, inputs):
-    step, ends = functions["step"], []
-    names = "d", "q", "i", "z", "r"
-    size = inputs["x"].shape[1]
-    shapes = {"x": (size,), "P": (size, size)}
-    for run in range(len(inputs["x"])):
-        x, P = inputs["x"][run].copy(), inputs["P"][run].copy()
-        for d, q, i, z, r in zip(*(inputs[name][run].tolist() for name in names), strict=True):
-            x, P = split_values(step(x, P, d, q, int(i), z, r), "step", shapes)
-        ends.append((x, P))
-    x, P = zip(*ends, strict=True)
-    return {"x": np.array(x), "P": np.array(P)}
+def _call_lower_bound(functions, inputs):
+    m = inputs["p"].shape[1]
+    calls = [
+        functions["lower_bound"](x, P, p, sigma, float(share))
+        for x, P, p, sigma, share in argument_rows(inputs)
+    ]
+    return stack_values(calls, "lower_bound", {"L": (2 * m, 2 * m), "n": (m,)})
 
 
 def _call_survey(functions, inputs):
@@ -52,6 +45,6 @@ CALLS = {
     "07-two-updates": FunctionCall(("two_updates",), _call_two_updates),
     "07-hearsay": FunctionCall(("hearsay",), _call_correlated_update),
     "07-fuse": FunctionCall(("fuse",), _call_fuse),
-    "07-corridor": FunctionCall(("step",), _call_step),
+    "07-bound": FunctionCall(("lower_bound",), _call_lower_bound),
     "07-mornings": FunctionCall(("survey",), _call_survey),
 }

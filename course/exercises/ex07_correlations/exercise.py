@@ -1,9 +1,9 @@
 """Exercise 07, correlations. In this order: ``beliefs`` (covariances, NEES), ``two_updates``,
-``hearsay`` (landmarks that are not measured), ``fuse`` (correlated estimates), ``corridor`` (SLAM
-in 1D), ``mornings`` (common error of unknown variance)."""
+``hearsay`` (landmarks that are not measured), ``fuse`` (correlated estimates), ``bound`` (the
+map's limit), ``mornings`` (common error of unknown variance)."""
 
 from classroom.exercises.exercise import Exercise
-from course.exercises.ex07_correlations.corridor.task import CORRIDOR
+from course.exercises.ex07_correlations.bound.task import BOUND
 from course.exercises.ex07_correlations.fuse.task import FUSE
 from course.exercises.ex07_correlations.hearsay.task import HEARSAY
 from course.exercises.ex07_correlations.mornings.task import MORNINGS
@@ -13,7 +13,7 @@ EXERCISE = Exercise(
     id="07",
     notebook="07_correlations",
     title="Correlations, consistency and cost of EKF-SLAM",
-    tasks=(TWO_UPDATES, HEARSAY, FUSE, CORRIDOR, MORNINGS),
+    tasks=(TWO_UPDATES, HEARSAY, FUSE, BOUND, MORNINGS),
     calls="course.exercises.ex07_correlations.calls",
     allows=(
         "slamlab.geometry",

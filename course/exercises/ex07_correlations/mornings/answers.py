@@ -83,7 +83,7 @@ def survey(morning, door, z, sigma):
         p[i], P[i] = p[i] + K * (z[k] - p[i]), sigma**2 if K == 1 else P[i] - K * P[i]
     return p, np.diag(P)
 
-# %% pasted: the corridor's step, a robot that stays
+# %% pasted: a filter in one dimension, a robot that stays
 def survey(morning, door, z, sigma):
     m = door.max() + 1
     x, P = np.zeros(1 + m), np.diag(np.r_[0.0, np.full(m, 1e4)])
@@ -96,7 +96,7 @@ def survey(morning, door, z, sigma):
         x, P = x + K * (z[k] - H @ x), P - np.outer(K, H @ P)
     return x[1:], P[1:, 1:]
 
-# %% pasted: the corridor's step, forgetting
+# %% pasted: a filter in one dimension, forgetting
 def survey(morning, door, z, sigma):
     m = door.max() + 1
     x, P = np.zeros(1 + m), np.diag(np.r_[0.0, np.full(m, 1e4)])
@@ -179,6 +179,14 @@ def survey(morning, door, z, sigma):
     N = np.linalg.inv(J.T @ J)
     state = N @ J.T @ np.append(z, 0)
     return state[:m], sigma**2 * N[:m, :m]
+
+# %% wrong: common errors of eight sigma in every corridor
+def survey(morning, door, z, sigma):
+    A = np.eye(door.max() + 1)[door]
+    same = morning[:, None] == morning[None, :]
+    W = np.linalg.inv(sigma**2 * np.eye(len(z)) + (8 * sigma) ** 2 * same)
+    P = np.linalg.inv(A.T @ W @ A)
+    return P @ A.T @ W @ z, P
 
 # %% wrong: first morning taken as exact
 def survey(morning, door, z, sigma):
