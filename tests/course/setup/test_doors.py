@@ -85,7 +85,7 @@ MODULE = re.compile(
 )
 TARGET = re.compile(r"(?:^ *|`)make (?!-)([\w-]+)(?= |`|$)([^`\n]*)", re.MULTILINE)
 SCRIPT = re.compile(r"\bpython3? (\w+/\w+\.py)\b")
-PARSES = re.compile(r"ArgumentParser\(|(?m:^from (?:course\.studies|benchmarks)\b.*\bmain\b)")
+PARSES = re.compile(r"ArgumentParser\(|= parser\(|study_command\.main\(|main\(.*python -m")
 
 
 @cache
