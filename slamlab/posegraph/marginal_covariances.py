@@ -5,7 +5,7 @@ Each block is the inverse of a Schur complement of H, which marginalises out all
 
 import numpy as np
 
-from slamlab.posegraph import edge_error
+from slamlab.posegraph import edge_error, spanning_tree
 from slamlab.posegraph.edge_jacobians import J_i, J_j
 from slamlab.posegraph.normal_equations import factorise
 
@@ -39,6 +39,20 @@ def squared_mahalanobis(problem, poses, pairs, measured, R):
     return np.einsum("ca,ca->c", v, np.linalg.solve(S, v[..., None])[..., 0])
 
 
+def leave_one_out(problem, poses, edges):
+    """Decrease (c,) of the least χ² if each of some edges (c,), numbers, is left out:
+    eᵀ(Λ⁻¹ − J H⁻¹ Jᵀ)⁻¹e, at the optimum, poses (n, 3)."""
+    ends = np.vstack([poses, np.zeros(3)])[problem.pairs[edges].T]
+    at = *ends, problem.measured[edges]
+    J = np.concatenate([J_i(*at), J_j(*at)], axis=-1)
+    columns = problem.equations.to_columns(J, problem.pairs[edges])
+    solved = _solved(_factorised(problem, poses), columns)
+    k = len(columns), len(edges), 3
+    P = np.einsum("kca,kcb->cab", columns.reshape(k), solved.reshape(k))
+    v, S = edge_error.error(*at), spanning_tree.covariances(problem.information[edges]) - P
+    return np.einsum("ca,ca->c", v, np.linalg.solve(S, v[..., None])[..., 0])
+
+
 def _factorised(problem, poses):
     e = problem.errors(poses)[0]
     return factorise(problem.linearise(poses, e, np.ones(len(e)))[0])
@@ -49,6 +63,9 @@ def _columns(problem, factors, some):
     pick = np.zeros((len(some), 3, 6))
     pick[:, :, :3] = np.eye(3)
     columns = problem.equations.to_columns(pick, np.column_stack([some, some]))
+    return problem.equations.to_poses(_solved(factors, columns)).reshape(-1, 3, len(some), 3)
+
+
+def _solved(factors, columns):
     strips = np.array_split(columns, max(1, -(-columns.shape[1] // STRIP)), axis=1)
-    solved = np.hstack([factors.solve(strip) for strip in strips])
-    return problem.equations.to_poses(solved).reshape(-1, 3, len(some), 3)
+    return np.hstack([factors.solve(strip) for strip in strips])

@@ -1,10 +1,10 @@
 """Rejection of outlier edges: truncated least squares by graduated non-convexity, several starts.
 
-The truncated cost has a local minimum for nearly every choice of loops. A search begins with the
-loops that agree best with the present poses, given a drift of odometry; it optimises, reduces the
-drift that it allows, and chooses again (Yang et al. 2020 graduate the cost instead). Many files
-state too little information, so that false loops seem to fit: χ² has a scale, estimated and at
-most 1. Of all results the most likely one counts.
+The truncated cost has a local minimum for nearly every choice of loops. A search begins with loops
+that the drift of odometry explains best and gradually rejects those of large χ² (Yang et al. 2020
+graduate the cost instead). Then loops that the drift along the accepted ones explains are
+readmitted, while this pays. Many files state too little information, so that false loops seem to
+fit: χ² has a scale, estimated and at most 1. Of all results the most likely one counts.
 """
 
 from dataclasses import replace
@@ -12,31 +12,38 @@ from typing import NamedTuple
 
 import numpy as np
 
+from slamlab.posegraph.marginal_covariances import leave_one_out
 from slamlab.posegraph.optimisation import optimise
 from slamlab.posegraph.spanning_tree import SpanningTree, covariances
 
-# of each search: share of the robust edges that it begins with, share of the drift and multiple of
-# Φ that it allows at first [1]
-STARTS = (0.1, 0, 1), (0.3, 1, 1), (0.5, 0, 1), (0.3, 0.1, 1), (0.1, 1, 1), (1, 0, 1e4), (1, 0, 1e6)
-FACTOR = 0.25  # of what is allowed, in each round [1]
-LEAST_DRIFT = 1e-4  # a smaller share of the drift counts as none [1]
-MAX_SCHEDULE, STEPS = 25, 2  # steps of a schedule, iterations of the optimiser in each
+WIDE, FACTOR = 100.0, 0.25  # multiple of Φ that a search allows at first, change per round [1]
+# of each search: share of the robust edges that it begins with, share of the drift that explains
+# them, multiple of Φ that it allows at first [1]
+STARTS = (0.1, 1, WIDE), (0.5, 0, 1), (0.3, 1, WIDE), (0.05, 1, WIDE), (1, 0, 1e6)
+ROUNDS, STEPS, MORE_STEPS = 25, 2, 10  # of a search, and iterations of the optimiser in each
+READMISSIONS = 8  # at most, of each search
+TESTED = 30  # accepted edges, of the largest χ², without which the cost is computed
 PRIOR_FREEDOM = 30.0  # degrees of freedom with which a scale of 1 enters its estimate [1]
 SAFETY = 3.0  # of the estimated scale, since noise is seldom Gaussian [1]
-VIOLATED = 3.0  # a trusted edge above so many Φ starts a search [1]
+VIOLATED = 3.0  # a trusted edge above so many Φ starts a search, an edge that costs more ends [1]
 SAME = 100.0  # squared distance of two results that agree [1]
 AMBIGUOUS = 3.0  # largest difference of the costs of two ambiguous results, in Φ [1]
 
 
 class Search(NamedTuple):
     """Result of one search: poses (n, 3), the mask (m,) of the accepted edges, χ² (m,) of all
-    edges, the scale of χ², and the cost: −2 log likelihood but for a constant."""
+    edges, the scale of χ², and the degrees of freedom of the accepted edges."""
 
     poses: np.ndarray
     accepted: np.ndarray
     chi2: np.ndarray
     scale: float
-    cost: float
+    freedom: int
+
+    def cost(self, phi, scale):
+        """Compute −2 log likelihood but for a constant, given the scale of χ²."""
+        chi2 = self.chi2[self.accepted].sum() / scale + self.freedom * np.log(scale)
+        return float(chi2 + phi * np.count_nonzero(~self.accepted))
 
     def distance(self, other):
         """Squared distance of another result, in χ² of the edges that this one accepts."""
@@ -55,29 +62,38 @@ def reject_outliers(problem, poses, fixed, dropped, phi, settings):
     if optimum is not None:
         return found, optimum
     results = []
-    for result in _searches(problem, poses, trusted, tree, phi):
-        results = sorted([*results, result], key=lambda each: each.cost)
+    for result in _searches(problem, poses, fixed, trusted, phi):
+        results, _ = _ranked([*results, result], phi)
         if len(results) > 1 and results[0].distance(results[1]) < SAME:
             break
-    results += [_opposite(problem, results[0], trusted, tree, phi)]
-    results.sort(key=lambda each: each.cost)
-    best, accepted = results[0], results[0].accepted
-    found, optimum = optimise(problem.select(accepted), best.poses, *settings)
-    others = [each for each in results if best.distance(each) >= SAME]
-    if others:
-        away = np.hypot(*(others[0].poses - found)[:, :2].T)
-        runner_up = others[0].cost - best.cost, float(np.sqrt(np.mean(away**2)))
-        ambiguous = runner_up[0] < AMBIGUOUS * phi
-        optimum = replace(optimum, runner_up=runner_up, ambiguous=bool(ambiguous))
-    return found, _completed(problem, found, optimum, accepted, phi)
+    results += [_opposite(problem, results[0], fixed, trusted, phi)]
+    (best, *others), costs = _ranked(results, phi)
+    found, optimum = optimise(problem.select(best.accepted), best.poses, *settings)
+    for other, cost in zip(others, costs[1:], strict=True):
+        if best.distance(other) >= SAME:
+            away = np.hypot(*(other.poses - found)[:, :2].T)
+            runner_up = cost - costs[0], float(np.sqrt(np.mean(away**2)))
+            ambiguous = runner_up[0] < AMBIGUOUS * phi
+            optimum = replace(optimum, runner_up=runner_up, ambiguous=ambiguous)
+            break
+    return found, _completed(problem, found, optimum, best.accepted, phi)
+
+
+def _ranked(results, phi):
+    """Sort results by their costs, given the scale of the most likely one; return the costs, too,
+    which one scale makes comparable."""
+    scale = min(results, key=lambda each: each.cost(phi, each.scale)).scale
+    ranked = sorted(results, key=lambda each: each.cost(phi, scale))
+    return ranked, [each.cost(phi, scale) for each in ranked]
 
 
 def _unchanged(problem, poses, accepted, trusted, phi, settings):
     """Optimise with the edges accepted before, or return None if these or the others surprise."""
-    found, optimum = optimise(problem.select(accepted), poses, *settings)
+    few = min(settings[0], MORE_STEPS), settings[1]
+    found, optimum = optimise(problem.select(accepted), poses, *few)
     scale = 1.0 if accepted.all() else _scale(problem, found, accepted)
     # false loops that bend odometry fit, but odometry does not
-    fits = problem.errors(found)[1] <= np.where(trusted, VIOLATED * phi, phi * scale)
+    fits = problem.errors(found)[1] <= np.where(trusted, VIOLATED * phi, _limit(phi, scale))
     if not optimum.converged or (fits != accepted).any():
         return poses, None
     return found, _completed(problem, found, optimum, accepted, phi)
@@ -89,49 +105,87 @@ def _completed(problem, poses, optimum, accepted, phi):
     return replace(optimum, chi2=float(cost), weights=accepted.astype(float))
 
 
-def _searches(problem, poses, trusted, tree, phi):
+def _searches(problem, poses, fixed, trusted, phi):
     """Yield a Search from each start, without the ``trusted`` edges, which none rejects."""
-    k, tried = np.flatnonzero(~trusted), set()
-    noise, drift = covariances(problem.information[k]), tree.drift(problem.pairs[k])
-    e = problem.errors(poses)[0][k]
-    for share, allowed, factor in STARTS:
-        d2 = squared_distances(e, noise + allowed * drift)
-        chosen = d2 <= np.quantile(d2, share)
-        if allowed or factor > 1:
-            chosen &= d2 <= max(2, factor) * phi
-        if (start := (chosen.tobytes(), allowed > 0, factor)) not in tried:
+    tried = set()
+    for share, drifts, factor in STARTS:
+        d2 = _distances(problem, poses, fixed, trusted if drifts else None)
+        limit = 2 * phi if drifts else factor * phi if factor > 1 else np.inf
+        chosen = (d2 <= min(limit, np.quantile(d2[~trusted], share))) & ~trusted
+        if (start := (chosen.tobytes(), factor)) not in tried:
             tried.add(start)
-            yield _search(problem, poses, trusted, chosen, (noise, allowed * drift, factor), phi)
+            found = _search(problem, poses, trusted, chosen, factor, phi)
+            yield _with_readmitted(problem, found, fixed, trusted, phi)
 
 
-def _opposite(problem, best, trusted, tree, phi):
-    """Search from the edges that the best result rejects, as far as the drift allows them."""
-    k = np.flatnonzero(~trusted)
-    noise, drift = covariances(problem.information[k]), tree.drift(problem.pairs[k])
-    d2 = squared_distances(problem.errors(best.poses)[0][k], noise + drift)
-    chosen = ~best.accepted[k] & (d2 <= 2 * phi)
-    return _search(problem, best.poses, trusted, chosen, (noise, 0 * drift, 1.0), phi)
+def _distances(problem, poses, fixed, trusted=None):
+    """Squared Mahalanobis distances (m,) of all edges, given the drift along ``trusted`` ones."""
+    covariance = covariances(problem.information)
+    if trusted is not None:
+        tree = SpanningTree(poses, fixed, problem.pairs, problem.information, ~trusted)
+        covariance += tree.drift(problem.pairs)
+    return squared_distances(problem.errors(poses)[0], covariance)
 
 
-def _search(problem, poses, trusted, chosen, schedule, phi):
-    """Search from the ``chosen`` edges, a mask (c,) of those that are not trusted."""
-    noise, drift, factor = schedule
-    allowed, scale, k = 1.0, 1.0, np.flatnonzero(~trusted)
-    for _ in range(MAX_SCHEDULE):
-        accepted = trusted.copy()
-        accepted[k] = chosen
-        poses, optimum = optimise(problem.select(accepted), poses, STEPS, tolerance=1.0)
-        e, chi2 = problem.errors(poses)
-        new = _scale(problem, poses, accepted)
-        scale = min(scale, new)  # a false loop does not make room for others
-        allowed = FACTOR * allowed if allowed > LEAST_DRIFT else 0.0
-        factor = max(1.0, FACTOR * factor)
-        d2 = squared_distances(e[k], noise + allowed * drift)
-        before, chosen = chosen, d2 <= phi * scale * factor
-        if not allowed and optimum.converged and (chosen == before).all():
+def _with_readmitted(problem, found, fixed, trusted, phi):
+    """Readmit the edges that the drift along the accepted ones explains, while this pays."""
+    for _ in range(READMISSIONS):
+        d2 = _distances(problem, found.poses, fixed, found.accepted)
+        chosen = (found.accepted | (d2 <= phi)) & ~trusted
+        if (chosen <= found.accepted).all():
             break
-    cost = chi2[accepted].sum() / new + _freedom(problem, accepted) * np.log(new)
-    return Search(poses, accepted, chi2, new, float(cost + phi * np.count_nonzero(~accepted)))
+        more = _search(problem, found.poses, trusted, chosen, WIDE, phi)
+        if more.cost(phi, found.scale) >= found.cost(phi, found.scale):
+            break
+        found = more
+    return found
+
+
+def _opposite(problem, best, fixed, trusted, phi):
+    """Search from the edges that the best result rejects, as far as the drift allows them."""
+    d2 = _distances(problem, best.poses, fixed, trusted)
+    chosen = ~best.accepted & (d2 <= 2 * phi)
+    return _search(problem, best.poses, trusted, chosen, 1.0, phi)
+
+
+def _search(problem, poses, trusted, chosen, factor, phi):
+    """Search from the ``chosen`` edges, a mask (m,), with a multiple of Φ that is reduced to 1."""
+    start, before, scale, settled = poses, ~chosen, 1.0, False
+    for _ in range(ROUNDS):
+        accepted = trusted | chosen
+        some = problem.select(accepted)
+        poses, optimum = optimise(some, poses, STEPS, tolerance=1.0)
+        if not optimum.converged and (chosen == before).all():  # bent by edges rejected since
+            poses, optimum = optimise(some, start, MORE_STEPS, tolerance=1.0)
+        chi2, new = problem.errors(poses)[1], _scale(problem, poses, accepted)
+        factor = max(1.0, FACTOR * factor)
+        before, scale = chosen, min(scale, new)  # a false loop does not make room for others
+        if not settled:
+            chosen = (chi2 <= phi * scale * factor) & ~trusted
+            settled = factor == 1 and optimum.converged and (chosen == before).all()
+        if settled:
+            limit = _limit(phi, new)
+            chosen = before | ((chi2 <= limit) & ~trusted)
+            if optimum.converged and (chosen == before).all():
+                costly = _costly(some, poses, np.flatnonzero(accepted), trusted, chi2, limit)
+                if not len(costly):
+                    break
+                chosen[costly] = False
+    return Search(poses, accepted, chi2, new, _freedom(problem, accepted))
+
+
+def _costly(some, poses, numbers, trusted, chi2, limit):
+    """Return which of the accepted edges cost far more than ``limit`` (the decrease of χ² without
+    one); of these only the costliest, since they burden the others."""
+    tested = np.flatnonzero(~trusted[numbers])
+    tested = tested[np.argsort(-chi2[numbers[tested]])[:TESTED]]
+    saved = leave_one_out(some, poses, tested)
+    return numbers[tested[saved > max(VIOLATED * limit, saved.max(initial=0) / 2)]]
+
+
+def _limit(phi, scale):
+    """Return the χ² of an edge whose acceptance and rejection cost the same."""
+    return scale * (phi - 3 * np.log(scale))
 
 
 def _freedom(problem, accepted):
