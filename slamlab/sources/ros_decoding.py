@@ -2,6 +2,7 @@
 
 import importlib
 from contextlib import suppress
+from functools import cache
 
 from slamlab.extras import needs
 from slamlab.sources.ros_bag_files import ZSTD
@@ -14,13 +15,7 @@ class MessageDecoder:
     """Decoder of the messages of a bag's connections. Raises ExtraMissing."""
 
     def __init__(self):
-        with needs("ros"):
-            from rosbags.typesys import Stores, get_types_from_msg, get_typestore
-        self._parse_definition = get_types_from_msg
-        self._empty_store = lambda: get_typestore(Stores.EMPTY)
-        self._ros1, self._ros2 = get_typestore(Stores.ROS1_NOETIC), get_typestore(Stores.LATEST)
-        self._ros1.register(get_types_from_msg(TF_FIELDS, TF))  # missing in rosbags
-        self._stores = {}
+        (self._ros1, self._ros2), self._stores = _usual_stores(), {}
 
     def __call__(self, connection, data):
         """Decode a message; return None if the message cannot be decoded."""
@@ -41,11 +36,23 @@ class MessageDecoder:
             self._stores[key] = self._ros1
             with suppress(Exception):  # as above, of a definition
                 if self._ros1.generate_msgdef(kind, ros_version=1)[1] != connection.digest:
-                    types = self._parse_definition(connection.msgdef.data, kind)
-                    store = self._empty_store()
-                    store.register(types)
-                    self._stores[key] = store
+                    self._stores[key] = _store("EMPTY", connection.msgdef.data, kind)
         return self._stores[key]
+
+
+@cache  # rosbags compiles a decoder for each type of a store, which takes longer than a small bag
+def _usual_stores():
+    return _store("ROS1_NOETIC", TF_FIELDS, TF), _store("LATEST")  # rosbags lacks TF of ROS 1
+
+
+def _store(name, definition=None, kind=None):
+    """Return a type store of rosbags with one more message definition. Raises ExtraMissing."""
+    with needs("ros"):
+        from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+    store = get_typestore(Stores[name])
+    if definition is not None:
+        store.register(get_types_from_msg(definition, kind))
+    return store
 
 
 def zstd_decompressor():

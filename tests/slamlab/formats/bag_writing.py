@@ -1,5 +1,7 @@
 """Small ROS bags, written with rosbags as a robot would write them, of both versions."""
 
+from functools import cache
+
 import numpy as np
 from rosbags import rosbag1, rosbag2
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
@@ -15,15 +17,23 @@ def rotation(yaw=0.0, pitch=0.0, roll=0.0):
     return Rotation.from_euler("ZYX", [yaw, pitch, roll]).as_quat()
 
 
+@cache  # the encoders of a store are compiled once
+def type_store(first):
+    """The message types of ROS 1, if ``first``, or of ROS 2."""
+    store = get_typestore(Stores.ROS1_NOETIC if first else Stores.ROS2_HUMBLE)
+    if first:
+        fields = "geometry_msgs/TransformStamped[] transforms"
+        store.register(get_types_from_msg(fields, TF))
+    return store
+
+
 class Bag:
     """A small bag to write messages into; ``compress`` is called with its writer."""
 
     def __init__(self, path, kind, compress=None):
         self.first = kind == "ros1"
-        self.store = get_typestore(Stores.ROS1_NOETIC if self.first else Stores.ROS2_HUMBLE)
+        self.store = type_store(self.first)
         if self.first:
-            fields = "geometry_msgs/TransformStamped[] transforms"
-            self.store.register(get_types_from_msg(fields, TF))
             self._writer = rosbag1.Writer(path)
         else:
             plugin = rosbag2.StoragePlugin[kind.upper()]
