@@ -48,19 +48,6 @@ def consistency(errors, Ps, vs, Ss):
         wrong[1 if correlated else 0] = -1
     return [nees, a[0], a[1]], [nis, b[0], b[1]], wrong
 
-# %% right: a table of four cases
-def consistency(errors, Ps, vs, Ss):
-    N, n = np.shape(errors)
-    nees = np.trace(np.einsum("kij,kj,kl->il", np.linalg.inv(Ps), errors, errors)) / N
-    low, high = chi2_quantile(np.array([0.025, 0.975]), n * N) / N
-    T = len(vs)
-    nis = float(np.dot(vs / Ss, vs)) / T
-    bounds = chi2_quantile(np.array([0.025, 0.975]), T) / T
-    slow = np.dot(vs[:-1], vs[1:]) > 0
-    cases = {(True, True): (1, 0), (True, False): (0, 1), (False, True): (0, -1), (False, False): (-1, 0)}
-    fine = bounds[0] < nis < bounds[1]
-    return (nees, low, high), (nis, *bounds), (0, 0) if fine else cases[nis > 1, bool(slow)]
-
 # %% wrong: which noise from the size of the NIS alone
 def consistency(errors, Ps, vs, Ss):
     N, n = errors.shape
@@ -95,13 +82,3 @@ def consistency(errors, Ps, vs, Ss):
     r = np.mean(vs[1:] * vs[:-1])
     s = int(nis > b[1]) - int(nis < b[0])
     return [nees, *a], [nis, *b], [0, s] if s * r > 0 else [s, 0]
-
-# %% wrong: what the NEES shows, and both noises at once
-def consistency(errors, Ps, vs, Ss):
-    N, n = errors.shape
-    nees = np.mean([e @ np.linalg.solve(P, e) for e, P in zip(errors, Ps)])
-    nis = np.mean(vs**2 / Ss)
-    a, b = chi2_quantile([0.025, 0.975], N * n) / N, chi2_quantile([0.025, 0.975], len(vs)) / len(vs)
-    q = 1 if nees > a[1] else -1 if nees < a[0] else 0
-    r = 1 if nis > b[1] else -1 if nis < b[0] else 0
-    return [nees, *a], [nis, *b], [q, r]

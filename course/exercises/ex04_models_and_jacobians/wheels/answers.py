@@ -49,25 +49,6 @@ def predict_wheels(x, P, s, B, k):
     C = [[k**2 * abs(left), 0], [0, k**2 * abs(right)]]
     return [x[0] + step.real, x[1] + step.imag, x[2] + turn], A @ P @ A.T + W @ C @ W.T, A, W
 
-# %% right: Q as a sum over both wheels
-def predict_wheels(x, P, s, B, k):
-    turn, d = (s[1] - s[0]) / B, (s[0] + s[1]) / 2
-    h = turn / 2
-    f = np.sinc(h / np.pi)
-    df = 0.0 if h == 0 else (np.cos(h) - f) / h
-    c, n = np.cos(x[2] + h), np.sin(x[2] + h)
-    A = np.eye(3)
-    A[0, 2], A[1, 2] = -d * f * n, d * f * c
-    columns = []
-    for sign in (-1, 1):
-        dh = sign / (2 * B)
-        length = f / 2 + d * df * dh
-        columns.append([length * c - d * f * n * dh, length * n + d * f * c * dh, sign / B])
-    W = np.array(columns).T
-    Q = sum(k**2 * abs(each) * np.outer(w, w) for each, w in zip(s, columns))
-    end = np.array([x[0] + d * f * c, x[1] + d * f * n, x[2] + turn])
-    return end, A @ P @ A.T + Q, A, W
-
 # %% wrong: Jacobians of the lesson's model with the mean of the arc
 def predict_wheels(x, P, s, B, k):
     d, a = (s[0] + s[1]) / 2, (s[1] - s[0]) / B
@@ -101,16 +82,3 @@ def predict_wheels(x, P, s, B, k):
     V = np.array([[f * c, d * (df * c - f * n) / 2], [f * n, d * (df * n + f * c) / 2], [0, 1]])
     C = k**2 * np.diag([abs(d), abs(a)])
     return x + [d * f * c, d * f * n, a], A @ P @ A.T + V @ C @ V.T, A, V @ [[0.5, 0.5], [-1 / B, 1 / B]]
-
-# %% wrong: no limit for a straight drive
-def predict_wheels(x, P, s, B, k):
-    d, a, t = (s[0] + s[1]) / 2, (s[1] - s[0]) / B, x[2]
-    if abs(a) < 1e-12:
-        a = 1e-12
-    R = d / a
-    step = R * np.array([np.sin(t + a) - np.sin(t), np.cos(t) - np.cos(t + a)])
-    A = np.array([[1, 0, -step[1]], [0, 1, step[0]], [0, 0, 1]])
-    by_a = np.append(R * np.array([np.cos(t + a), np.sin(t + a)]) - step / a, 1)
-    by_d = np.append(np.array([np.sin(t + a) - np.sin(t), np.cos(t) - np.cos(t + a)]) / a, 0)
-    W = np.outer(by_d, [0.5, 0.5]) + np.outer(by_a, [-1 / B, 1 / B])
-    return np.append(x[:2] + step, t + a), A @ P @ A.T + k**2 * W @ np.diag(abs(s)) @ W.T, A, W
