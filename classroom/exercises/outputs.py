@@ -6,7 +6,7 @@ from classroom.exercises.correctness_laws import ROUNDING
 from classroom.exercises.function_calls import StudentError, wrong_shape_message
 from classroom.exercises.function_calls.changed_arguments import CHANGED
 
-MAX_MAGNITUDE = 1e9
+MAX_MAGNITUDE = 1e18
 """Largest allowed magnitude: rounding in a law could hide the error of a larger number."""
 JITTER = 1e-6
 """Relative difference up to which rows count as equal."""
