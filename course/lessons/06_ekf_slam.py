@@ -49,6 +49,10 @@ from slamlab.sources.landmark_runs import LandmarkRun, Loop
 # How large will the innovation be? The bearings of the sensor have a standard deviation of 0.02 rad.
 # The standard deviation of the robot's heading is four times as large.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-the-second-measurement-of-a-landmark"
+# *For the lecturer:* Most students choose the σ of the heading. Ask those who have done lesson 05 where they
+# have met this mistake before. If time is short, skip the analogy of the sailor.
+
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "06-second",
@@ -77,6 +81,7 @@ ask(
 # and landmark; the other filter drops it.
 
 # %% slideshow={"slide_type": "fragment"}
+# innovations of 1000 robots with one estimated pose and different true poses
 ESTIMATED, MEASURED = np.array([0, 0, 0.4]), np.array([5.0, 0.8])
 R = np.diag([0.1, 0.02]) ** 2
 
@@ -92,6 +97,7 @@ def innovations(P_rr):
 
 
 # %% slideshow={"slide_type": "fragment"}
+# the S that two filters predict, without P_ri and with it
 def predicted_S(P_rr):
     """Innovation covariance S of that measurement, without P_ri and with it."""
     mak = MAK(ESTIMATED, P_rr)
@@ -137,8 +143,8 @@ sigma_without, sigma_with = (np.sqrt(S[1, 1]) for S in predicted_S(P_start))
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="06-second"
 # The standard deviation of the 1000 bearing innovations is {= sigma_measured:.3f =} rad. The filter
 # that keeps $P_{\mathrm ri}$ predicts {= sigma_with:.3f =} rad, the other filter
-# {= sigma_without:.3f =} rad. Move the sliders: the innovations stay equally small for all pose errors,
-# because each landmark is displaced *together with* its robot.
+# {= sigma_without:.3f =} rad. The innovations are equally small for other pose errors, as the sliders of the
+# figure show, because each landmark is displaced *together with* its robot.
 #
 # The filter without $P_{\mathrm ri}$ treats the second measurement as independent information about the
 # pose, so its $P$ shrinks for any value of $v$. In fact the measurement contains no information about
@@ -192,6 +198,10 @@ compare(sigma_bearing, np.sqrt(predicted_S(P_start)[1][1, 1]))
 # No measurement determines the position and orientation of the map's frame. This property is the
 # **gauge freedom** of SLAM. The filter fixes the gauge by starting at $x_{\mathrm r} = (0, 0, 0)$,
 # usually with $P_{\mathrm{rr}} = 0$.
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-the-joint-state-and-its-covariance"
+# *For the lecturer:* Ask for the size of $P$ with 100 landmarks. Students often believe that the robot
+# *knows* its first pose; in fact this pose defines the frame.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # **EKF-SLAM** (in the MAK thesis: the *map-augmented Kalman filter*) is the extended Kalman filter for
@@ -285,6 +295,10 @@ views.show(
 #
 # $$x_{\mathrm r} \leftarrow f(x_{\mathrm r}, u), \qquad p_i \leftarrow p_i. \tag{06.2}$$
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-prediction-the-landmarks-are-static"
+# *For the lecturer:* Compute the block product on the board, and let the class state each block before you
+# press a key. "Only the robot's own" is the usual answer to the poll.
+
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "06-drive",
@@ -369,6 +383,10 @@ compare(P_rm, mak.P[:3, 3:])
 # changes. (This requires that one measurement determines the position. A single bearing does not
 # determine a position, so a camera needs two poses for a new landmark.)
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-state-augmentation-a-new-landmark"
+# *For the lecturer:* Let the class fill the last row of the Jacobian before it appears. If time is short,
+# skip the program of the Monte Carlo check and show its figure.
+
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "06-strangers",
@@ -416,6 +434,7 @@ grown.step("multiply block by block", blockwise)
 # errors in its first pose, in both measurements, and in the motion between them.
 
 # %% slideshow={"slide_type": "fragment"}
+# 20 000 robots, each with its own errors in its poses and measurements
 R_SHARP, Z_I, Z_N = np.diag([0.05, 0.01]) ** 2, np.array([4.0, 0.8]), np.array([3.0, -0.9])
 MOTION, P_FIRST, ROBOTS = np.array([1.0, 0.1, 0.2]), np.diag([0.15, 0.15, 0.06]) ** 2, 20_000
 mak = MAK([0, 0, 0.4], P_FIRST)
@@ -483,7 +502,12 @@ compare(rho_y, correlation(mak.P)[4, 6])
 # Before you continue: which blocks will be white (zero) after each of the three events, and why?
 # (Blocks whose variance is zero are white, too.)
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-correlations-after-each-step"
+# *For the lecturer:* Let everybody sketch the three patterns, white or coloured, before you show the picture.
+# The answer to the last question is the next section: $a$ is measured again.
+
 # %% slideshow={"slide_type": "fragment"}
+# add a, drive 3 m, add b; the correlations after each event
 Q_SLIP, moments = np.diag([0.05, 0.03, 0.02]) ** 2, {}
 story = MAK(np.zeros(3), np.zeros((3, 3)))
 story.add(["a"], [[2.0, 0.9]], R_SHARP)
@@ -657,6 +681,10 @@ views.show(
 # >
 # > Output: $\hat x$, $P$ of pose and map.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-the-algorithm-on-a-loop"
+# *For the lecturer:* Compare the box with that of lesson 04: only the augmentation is new. Ask why new
+# landmarks come last; a later section shows what happens otherwise.
+
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # In the library the filter is `MAK`, and the estimator `EkfSlam` applies it to a run: `step` performs
 # the algorithm for one reading. (The book processes one landmark after another; the difference is of
@@ -664,6 +692,7 @@ views.show(
 # and measures those within 2.5 m (its sensor range). One lap takes 84 steps, and we simulate 100 steps.
 
 # %% slideshow={"slide_type": "fragment"}
+# simulate 100 steps on the circle, and keep the filter after each step
 LOOP = Loop(steps=100)
 source = LandmarkRun(LOOP, np.random.default_rng(16))
 kept = []  # the filter after each step
@@ -867,6 +896,10 @@ early, late = rho[3:13, 3:13][of_two].mean(), rho[-10:, -10:][of_two].mean()
 # In the runs so far the sensor range is 2.5 m, and the turn rate has a standard deviation of 0.7°/s. We
 # now shorten the sensor range and make the odometry worse. The filter is given both values exactly.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-linearisation-error-and-inconsistency"
+# *For the lecturer:* Do not quote the mean NEES, because two of the twelve runs dominate it. Ask with which
+# length the position error has to be compared. (The distance to the landmark.)
+
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "06-honest",
@@ -886,6 +919,7 @@ ask(
 
 
 # %% slideshow={"slide_type": "fragment"}
+# 12 runs with another sensor range and another noise of the turn rate
 @lru_cache(4)
 def runs_with(sensor_range, turn_noise):
     """12 runs of a loop with this sensor range [m] and noise of the turn rate [°/s]."""
@@ -962,8 +996,8 @@ views.explore(
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="06-honest"
 # With the short sensor range, the median of the 12 runs' mean NEES is {= np.median(of_run[1.5]):.1f =}.
-# Two runs reach {= sorted(of_run[1.5])[-2]:.0f =} and {= max(of_run[1.5]):.0f =}, and the second run
-# causes almost the whole peak of the curve. With the same odometry and a sensor range of 4 m the median
+# Two runs reach {= sorted(of_run[1.5])[-2]:.0f =} and {= max(of_run[1.5]):.0f =}; the run with the larger
+# value causes almost the whole peak of the curve. With the same odometry and a sensor range of 4 m the median
 # is {= np.median(of_run[4.0]):.1f =}.
 #
 # No block of $P$ is missing here. When the robot measures its first landmarks again, its position error
@@ -1066,6 +1100,10 @@ views.show(
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=3
 # ## The order of the three steps
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-the-order-of-the-three-steps"
+# *For the lecturer:* If time is short, leave out this section. Ask how one could find such a mistake by
+# looking at the map alone. (Hardly.)
+
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "06-order",
@@ -1107,7 +1145,12 @@ print(f"{'odometry alone':30} {odometry_last:18.2f}")
 # One innovation corrects the whole map. What happens if the measurement is wrong? We return to the loop
 # closure and make the measured range of an old landmark too long. Such a measurement is an **outlier**.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-an-outlier"
+# *For the lecturer:* Ask whether the ellipses show that something went wrong. They do not, since $P$ does not
+# depend on the innovation. The question how to refuse such a measurement leads to the gate of lesson 08.
+
 # %% slideshow={"slide_type": "fragment"}
+# make one range of the oldest landmark in range too long
 readings = list(source)
 NOISE = ekf_runs.R(source)
 
@@ -1181,6 +1224,10 @@ carried = np.hypot(*(misled.landmarks() - correct.landmarks()).T)
 # **Read next:** H. Durrant-Whyte and T. Bailey, "Simultaneous localization and mapping: part I", *IEEE Robotics and
 # Automation Magazine* 13(2), 2006.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-literature"
+# *For the lecturer:* The counterexample of Julier and Uhlmann contains a robot that does not even move. A
+# student can rebuild it with `MAK` as a project.
+
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=1
 # ## What you can do now
 #
@@ -1197,6 +1244,10 @@ carried = np.hypot(*(misled.landmarks() - correct.landmarks()).T)
 # augmentation, update and the whole filter, merge two landmarks that are the same object, and make the
 # filter robust against outliers.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-what-you-can-do-now"
+# *For the lecturer:* Ask which of the three steps has to change if the numbers of the landmarks are not
+# given. The answer leads to lesson 08.
+
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Deeper: gauge freedom and the initial covariance
 #
@@ -1204,6 +1255,10 @@ carried = np.hypot(*(misled.landmarks() - correct.landmarks()).T)
 # fixes the gauge. Smolec warns against this (section 2.6): without a variance on the diagonal of $P$, a
 # matrix often becomes singular, so one should set a variance even if the start is known. Does an
 # initial $P$ of zero cause an error, and what is the effect of the variance?
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-deeper-gauge-freedom-and-the-initial-cov"
+# *For the lecturer:* Ask what an exact filter would do with the variance of the start: it would add this
+# variance to the map, but not rotate the map.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 P_WIDE = np.diag([0.1, 0.1, np.radians(5)]) ** 2
@@ -1235,10 +1290,10 @@ print(f"distances between landmarks by up to {100 * np.abs(between[0] - between[
 # in the first steps.
 #
 # The true error of the start is 0 in both cases, so an exact filter would make nearly the same map.
-# With first estimates our filter also makes nearly the same map. (Its NEES of 0.5 is correct: $P$
-# contains a variance of the start, which has no error in these runs.) With standard Jacobians the map
-# of the lesson's run has nearly the same shape, but it is shifted and rotated as a whole. The reason is
-# that the variance of the initial heading allows the filter to rotate the map by spurious information
+# With first estimates our filter also makes nearly the same map. (Its NEES of
+# {= table["first estimates, 10 cm, 5°"].nees:.1f =} is correct: $P$ contains a variance of the start, which
+# has no error in these runs.) With standard Jacobians the map of the lesson's run has nearly the same shape,
+# but it is shifted and rotated as a whole. The reason is that the variance of the initial heading allows the filter to rotate the map by spurious information
 # (lesson 07). The initial $P$ should contain a variance if the frame is given from outside, for example
 # by an earlier map. In this case use first-estimates Jacobians.
 
@@ -1250,6 +1305,10 @@ print(f"distances between landmarks by up to {100 * np.abs(between[0] - between[
 # surveyor measures the position of landmark $b$ of our example, with a standard deviation of 1 cm. Then
 # $h$ is $p_b$ itself: $H$ is an identity matrix in the columns of $b$ and zero in all other columns.
 # (`correct` takes $H$ without its columns of zeros, and the indices of the other columns.)
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-deeper-external-measurements-and-the-rem"
+# *For the lecturer:* Ask what a GPS receiver would measure in terms of $H$: it would be an identity matrix in
+# the columns of the robot's position.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 surveyed, R_PLAN = story.landmarks()[1] + [0.03, -0.04], np.eye(2) * 0.01**2
@@ -1283,6 +1342,9 @@ print("left:", story.ids, " P of robot and b unchanged:", np.array_equal(story.P
 # code), this update is $P \leftarrow P - M M^{\mathsf T}$. This form needs neither a gain nor an
 # inverse.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-deeper-how-the-library-saves-time"
+# *For the lecturer:* Only students who implement the filter themselves need this section.
+
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 mak = kept[60].marginal(kept[60].ids)
 P_then, last_ids = mak.P, mak.ids[-3:]
@@ -1306,6 +1368,9 @@ print(f"P − B Bᵀ is the new P: {np.allclose(mak.P, P_then - step.B @ step.B.
 # assignment. `EkfSlam` implements both cases. Is the shown pose more accurate for some $\lambda > 0$,
 # or only smoother?
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-deeper-a-smoothed-display"
+# *For the lecturer:* Ask before the table whether smoothing makes the pose more accurate or only less jumpy.
+
 
 # %% slideshow={"slide_type": "fragment"} tags=["folded"]
 def shown(share, count=4):
@@ -1328,7 +1393,7 @@ for share, (error, jump, landmark) in smoothed.items():
     print(f"error of the landmarks {landmark:.1f} cm")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The shown pose is smoother, but on these four runs it is never more accurate. The estimate uses every
+# The shown pose is smoother, but its RMS error over these four runs is not smaller. The estimate uses every
 # measurement so far, and the old difference contains the error that the last measurement has just
 # corrected. For a display, smoothness may be more important than this error; a controller should use
 # the estimate.
@@ -1339,6 +1404,10 @@ for share, (error, jump, landmark) in smoothed.items():
 # You can run the same filter from a terminal. The cell below calls the same command. The source
 # `sim:landmarks` is a run of about seven laps. With the option `--out FOLDER` the command also writes
 # the trajectory, the map and a summary.
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-deeper-from-the-command-line"
+# *For the lecturer:* `slamlab run --list-estimators` lists the other estimators that can process the same
+# run.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-ignore-output"]
 from slamlab.cli import main

@@ -61,6 +61,10 @@ from slamlab.sources.landmark_runs import LandmarkRun, Loop
 # $$P = \begin{bmatrix} P_{\mathrm{rr}} & 0 & 0 \\ 0 & P_{11} & 0 \\ 0 & 0 & P_{22} \end{bmatrix}
 # \tag{07.1}$$
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-two-landmarks-two-measurements"
+# *For the lecturer:* Let everybody fill a 3 × 3 pattern of zeros and crosses for each of the two measurements
+# before the poll. The symmetric entries save half of the work.
+
 # %% slideshow={"slide_type": "subslide"}
 ask(
     "07-blocks",
@@ -102,6 +106,10 @@ H_2 = sp.BlockMatrix([[H_r, Z(2, 2), H_p]])
 # Which estimates does a measurement correct? The gain is $K = P H^{\mathsf T} S^{-1}$, so we look at
 # $P H^{\mathsf T}$, the covariance of the state's error with the innovation:
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-the-first-measurement-step-by-step"
+# *For the lecturer:* Read (07.4) as a path: from the robot through the innovation to the landmark. The *Try*
+# shows that a correlation can also arise without the robot.
+
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 sp.block_collapse(P * H_1.T)
 
@@ -133,6 +141,7 @@ update
 
 
 # %% slideshow={"slide_type": "fragment"}
+# the update of a covariance in blocks, as a derivation
 def measurement(P, H):
     """Update of a covariance in blocks by a measurement, as a derivation."""
     PHt, given = blockwise(P * H.T), {any_P: P, any_H: H}
@@ -189,7 +198,7 @@ compare(P_r1_new, after[:3, 3:5])
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=7
 # ## The second measurement
 #
-# Before the robot measures landmark 2 it may move. Lesson 06 derived what this does to the blocks:
+# Before the robot measures landmark 2, it may move. Lesson 06 derived what this does to the blocks:
 #
 # $$P_{\mathrm{rr}} \leftarrow A P_{\mathrm{rr}} A^{\mathsf T} + Q, \qquad
 # P_{\mathrm ri} \leftarrow A P_{\mathrm ri}, \qquad P_{ij} \leftarrow P_{ij} \tag{07.5}$$
@@ -245,6 +254,10 @@ measurement(P_then, H_2)
 #
 # $$\rho_{12} = \frac{P_{\mathrm{rr}}}{\sqrt{(P_{\mathrm{rr}} + R)\,(P_{\mathrm{rr}} + Q + R)}}
 # \tag{07.7}$$
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-the-correlation-coefficient"
+# *For the lecturer:* Ask for two limits of (07.7): a perfect sensor, $R \to 0$, and a motion without
+# information, $Q \to \infty$.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # **Your turn.** The robot's position has $\sigma = 0.3$ m, the motion adds another 0.3 m, and the ranges
@@ -315,6 +328,7 @@ views.explore(
 # are numbered in the order of their first measurement.
 
 # %% slideshow={"slide_type": "fragment"}
+# EKF-SLAM on the lap; keep P after each step
 loop = Loop(landmarks=16, steps=96, v_sigma=0.04, omega_sigma=0.03, range_max=2.2)
 drive = LandmarkRun(loop, np.random.default_rng(7))
 slam, P_at, film = EkfSlam(drive.robot, drive.sensor), [], []
@@ -453,7 +467,12 @@ print(f"of the map's variance, {100 * shifts:.0f} % is translation and {100 * tu
 # a filter of the library that keeps a given share of the cross blocks (after each update and each
 # augmentation):
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-part-two-dropped-correlations"
+# *For the lecturer:* Ask first why anybody would want to drop correlations. The answer "conservative" is a
+# good wrong answer: the filter loses information, but it does not know that it does.
+
 # %% slideshow={"slide_type": "fragment"}
+# simulated laps of a filter that keeps a share of every cross block
 LAP, RUNS = Loop(steps=90), 16
 
 
@@ -569,6 +588,10 @@ views.show(
 # between them, change meanwhile? The vector from landmark $i$ to landmark $j$ has the covariance
 #
 # $$\Delta p_{ij} = p_j - p_i, \qquad \Delta P_{ij} = P_{ii} - P_{ij} - P_{ji} + P_{jj}. \tag{07.10}$$
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-determinant-and-volume-of-a-covariance"
+# *For the lecturer:* Students conclude that a map with shrinking ellipses is good. Remind them of the
+# previous section: the ellipses of the overconfident filter shrink, too.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -764,6 +787,10 @@ for name, mak in (("compass", compass_map), ("no compass", turned_map)):
 # and each update changes all of them. So EKF-SLAM has a **computational complexity O(N²)** per
 # measurement: for large $N$, the number of operations and the memory grow with $N^2$.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-computational-complexity-o-n2"
+# *For the lecturer:* Ask for the memory of $P$ with 1600 landmarks. (82 MB.) If time is short, show the poll
+# and the figure only.
+
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "07-price",
@@ -837,6 +864,9 @@ views.show(
 #
 # This *global update* is computed once, when the robot leaves the region.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-the-compressed-ekf"
+# *For the lecturer:* If time is short, show the poll and the printed difference, and skip (07.14).
+
 # %% slideshow={"slide_type": "subslide"}
 ask(
     "07-delay",
@@ -853,6 +883,7 @@ ask(
 )
 
 # %% slideshow={"slide_type": "fragment"} answers="07-delay"
+# one lap by EKF-SLAM; from then on, the full filter and a compressed copy
 wide = LandmarkRun(Loop(landmarks=40, steps=168), np.random.default_rng(7))
 readings, slam = list(wide), EkfSlam(wide.robot, wide.sensor)
 for reading in readings[:85]:  # the first lap makes the map
@@ -895,6 +926,10 @@ print(f"largest difference of any number in x and P: {off:.9f}")
 # pose where one ends and the next begins. They also share the landmarks that were measured in both
 # submaps; the two estimates of such a landmark must agree.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-submaps"
+# *For the lecturer:* Ask why the first pose of a submap has no error. (It is the origin of the submap, by
+# definition.)
+
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 trip = LandmarkRun(LAP, np.random.default_rng(7))
 readings, one, joined = list(trip), EkfSlam(trip.robot, trip.sensor), JoinedMap()
@@ -930,6 +965,10 @@ print(f"rms difference from one large filter {apart:.1f} cm; its own σ (√trac
 # This is **conditional independence** of Gaussian variables. The **marginal** distribution of the
 # landmarks and the last pose results from integrating over the other poses. EKF-SLAM computes this
 # marginal at every step. Here is a corridor with three poses and two landmarks:
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-conditional-independence-and-sparse-info"
+# *For the lecturer:* Students read a zero of $\Lambda$ as "uncorrelated". Point at the printed correlation of
+# $p_1$ and $p_2$, and then at their zero in $\Lambda$.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 links = [(0, 1), (1, 2), (0, 3), (1, 3), (1, 4), (2, 4)]  # x₀ x₁ x₂ p₁ p₂: odometry, measurements
@@ -988,6 +1027,10 @@ compare(Lambda_marginal, Lambda[2:, 2:] - schur)
 # With three landmarks the state has nine numbers. If robot and landmarks are shifted together along
 # x or y, or rotated together, every measurement stays the same: the *gauge freedom* of lesson 06. These
 # three directions are unobservable, so the rank of $O$ must be 6.
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-observability-and-the-ekf-s-inconsistenc"
+# *For the lecturer:* The answer 9 comes from students who think that enough data determine everything. Tick
+# the box only after the class has stated what the three red values should be.
 
 # %% slideshow={"slide_type": "subslide"}
 ask(
@@ -1077,6 +1120,10 @@ compare(lengths, np.sqrt(np.diag(G.T @ O_standard.T @ O_standard @ G).clip(0)))
 # only in a simulation; *first estimates*; and *standard*. The runs, of seven laps each, were made
 # beforehand, with good and with noisy odometry (`python -m course.studies.consistency`).
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-consistency-in-simulation"
+# *For the lecturer:* Do not read the table row by row. Compare the two rows "standard", and ask why even the
+# ideal filter leaves its band.
+
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 heads = "odometry", "filter", "NEES, mean", "median run", "steps above", "below band", "map, rms"
 lines = [f"| {' | '.join(heads)} |", "|---" * len(heads) + "|"]
@@ -1111,6 +1158,10 @@ Markdown("\n".join(lines))
 # least squares converges to the same optimum. This optimum has errors as well, but a filter without
 # linearisation error would end *at* it, because both use the same data and covariances. The cell below
 # processes the first 600 lines of the file; the whole log was processed beforehand.
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-ekf-slam-on-a-real-log-victoria-park"
+# *For the lecturer:* Point out that the batch optimum is not the ground truth: the figures compare estimates
+# from the same data. Ask where a filter without linearisation error would end.
 
 # %% slideshow={"slide_type": "fragment"}
 park = victoria_park.stored()
@@ -1219,7 +1270,7 @@ Markdown("\n".join(lines))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # Five methods of the course processed the same measurements; the table compares their poses with the
-# batch optimum. Only the filter with first estimates is consistent. The standard EKF ends
+# batch optimum. Only the filter with first estimates ends within its σ of this optimum. The standard EKF ends
 # {= standard[0][-1] / standard[1][-1]:.0f =} σ away, and the compressed EKF has exactly the same errors,
 # because it computes the same filter. Joining submaps of {= victoria_park.SUBMAP =} poses ends
 # {= park["submaps checkpoints"][-1, 0] / park["submaps checkpoints"][-1, 1]:.0f =} σ away: a join is
@@ -1243,6 +1294,10 @@ Markdown("\n".join(lines))
 # - **Read next:** H. Durrant-Whyte and T. Bailey, "Simultaneous Localization and Mapping: Part I",
 #   *IEEE Robotics & Automation Magazine* 13(2), 2006.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-literature"
+# *For the lecturer:* A student who asks for the full proof of the rank finds it in the paper of Huang,
+# Mourikis and Roumeliotis; *Deeper* shows the idea for one landmark.
+
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=1
 # ## What you can do now
 #
@@ -1264,6 +1319,9 @@ Markdown("\n".join(lines))
 #
 # The sections below this one are optional.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-what-you-can-do-now"
+# *For the lecturer:* Cover the right column of the table and let the class fill it.
+
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Deeper: no determinant of the map grows
 #
@@ -1277,6 +1335,10 @@ Markdown("\n".join(lines))
 # product also lies between 0 and 1. A prediction does not change $M$, by (07.5). For the vectors of
 # (07.10) the same holds with $D M D^{\mathsf T}$ and $D B$. We check this at every step of the lap from
 # the tenth on, for every landmark and every pair:
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-deeper-no-determinant-of-the-map-grows"
+# *For the lecturer:* Students of linear algebra can find the bounds of the eigenvalues of $I - C C^{\mathsf
+# T}$ themselves before you show them.
 
 # %% slideshow={"slide_type": "fragment"} tags=["folded", "nbval-check-output"] answers="07-grow"
 largest, det = (
@@ -1311,6 +1373,10 @@ for name, ratios in largest.items():
 # \tag{07.18}$$
 #
 # Does a measurement change? To first order its change is $H G$:
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-deeper-the-unobservable-directions-deriv"
+# *For the lecturer:* This section explains the inconsistency. In a graduate course it is worth more time than
+# the compressed EKF.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 x, y, theta, p_x, p_y, a, b, e_x, e_y = sp.symbols("x y theta p_x p_y a b e_x e_y", real=True)
@@ -1367,6 +1433,10 @@ for name in ("ideal", "first estimates", "standard"):
 # correlated. The matrix $D$ computes the differences:
 #
 # $$P_{\text{vectors}} = D\, P_{\text{map}}\, D^{\mathsf T} \tag{07.19}$$
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-deeper-a-relative-map"
+# *For the lecturer:* Ask what the vectors round a closed loop must add up to, and whether a filter of
+# independent vectors guarantees it.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 P_map = P_at[-1][3:, 3:]
