@@ -47,6 +47,10 @@ from slamlab.models.finite_differences import numerical_jacobian
 # $\sigma$ = 5 cm in $x$ and in $y$, and 0.1 rad (6°) in the heading. The robot drives 3 m straight ahead and
 # then turns by 0.3 rad. Its odometry is exact.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-linearisation-and-covariance-propagation"
+# *For the lecturer:* Ask for 3 m times 0.1 rad before the figure appears. Point out that the ellipse was
+# computed without any of the dots. If time is short, state the factor 2.45 and skip the section on it.
+
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "04-streak",
@@ -308,6 +312,10 @@ for heading_sigma in (0.1, 0.3, 0.6):
 # $$f(x, u) = \begin{bmatrix} x + d\cos\theta \\ y + d\sin\theta \\ \theta + \Delta\theta
 # \end{bmatrix} \tag{04.4}$$
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-the-motion-model-and-its-jacobian-a"
+# *For the lecturer:* Ask for the third column before it appears: the step, rotated by 90°. The *Try* with the
+# minus sign removed is worth showing, because the computer rejects a wrong line.
+
 # %% slideshow={"slide_type": "fragment"}
 from slamlab.models.symbolic import beta, d, dtheta, p_x, p_y, r, theta, x, y
 
@@ -355,6 +363,10 @@ A_steps.step("with the step's own Δx and Δy", with_step, given={dx: f[0] - x, 
 # of this step. Then, as in lesson 03, the covariances add:
 #
 # $$P \leftarrow A P A^{\mathsf T} + Q, \qquad Q = W C W^{\mathsf T} \tag{04.7}$$
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-control-noise-w-and-q"
+# *For the lecturer:* The usual mistake is to put standard deviations into $C$. Let the class state the unit
+# of every entry of $W C W^{\mathsf T}$.
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
 C, W_here = noise.C_odometry(u, 0.1, 0.1), jacobians.W_odometry(x_hat, u)  # for our robot
@@ -548,6 +560,11 @@ compare(H_2, sp.Matrix([(p_x - x) ** 2 + (p_y - y) ** 2]).jacobian(pose))
 # \dfrac{p_x - x}{r} & \dfrac{p_y - y}{r} \\[2ex]
 # -\dfrac{p_y - y}{r^2} & \dfrac{p_x - x}{r^2} \end{bmatrix} \tag{04.10}$$
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-what-measurements-cannot-determine-obser"
+# *For the lecturer:* Students expect that enough measurements of one landmark finally determine the pose.
+# Point at the rank of "both, from two poses" in the printed table, and let a student walk round a chair while
+# looking at it.
+
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "04-hall",
@@ -697,6 +714,10 @@ for name, bearing in {"difference": v[1], "wrapped": wrap(v[1])}.items():
 # hold only to first order: $P$ approximates the covariance of the error, and $K$ is no longer exactly the best
 # linear gain.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-the-extended-kalman-filter"
+# *For the lecturer:* Ask which lines of the box differ from the box of lesson 03. The true end lies outside
+# the last ellipse; ask how often this may happen before you show the answer.
+
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # > **Algorithm: extended Kalman filter (EKF)** (Smith, Schmidt and McGee 1962; *Probabilistic
 # > Robotics*, table 3.3, there with $(I - K H) P$ in step 7)
@@ -717,7 +738,7 @@ for name, bearing in {"difference": v[1], "wrapped": wrap(v[1])}.items():
 # >
 # > **Output:** $\hat x$, $P$
 
-# %% slideshow={"slide_type": "subslide"}
+# %% slideshow={"slide_type": "subslide"} tags=["code"]
 motion_noise, R_step = (0.1, 0.1), noise.R(3.0, range_error=0.02, bearing_sigma=0.02)
 known_map = error_propagation.LANDMARKS
 
@@ -741,6 +762,7 @@ def ekf_step(b, u, z, p):
 # comparison we also compute the pose by odometry alone.
 
 # %% slideshow={"slide_type": "fragment"}
+# simulate the run: in each step drive, measure one landmark, and call ekf_step
 rng, step = np.random.default_rng(4), np.array([0.4, 2 * np.pi / 24])
 truth, b = [np.array([1.0, 0.5, 0.0])], Belief(np.array([1.0, 0.5, 0.0]), 0.01**2 * np.eye(3))
 odometry, beliefs = [truth[0]], [b]
@@ -809,6 +831,10 @@ compare(S, correct(beliefs[-1], np.zeros(2), H_last, R_step)[1].S)
 #
 # The result has an error because the pose and the measurement have errors. So covariance propagation needs two
 # Jacobians, with respect to the pose and to the measurement.
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-a-new-landmark-the-inverse-measurement-m"
+# *For the lecturer:* Hold a pointer in front of you. Shift it, then turn with it: its tip shows the columns
+# of $J_{\mathrm r}$. If time is short, show (04.14) and skip both derivations.
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
 g = sp.Matrix([x + r * sp.cos(theta + beta), y + r * sp.sin(theta + beta)])  # the model
@@ -908,6 +934,10 @@ views.explore(
 # The map may contain older landmarks. Let $i$ be a landmark whose error is correlated with the error of the
 # robot's pose, with the cross-covariance $P_{\mathrm ri}$.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-the-cross-covariances-of-a-new-landmark"
+# *For the lecturer:* Zero is the most common answer. Ask how the estimates of *both* landmarks would change
+# if we learned that the robot had stood 10 cm farther to the left.
+
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "04-cross",
@@ -976,7 +1006,12 @@ compare(P_mn, E(J_m * x_error * (J_n * x_error).T))
 # typical pose: the derived matrix, the matrix that the code of `slamlab` computes, and the `numerical_jacobian`
 # of the model itself.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-how-to-test-a-jacobian"
+# *For the lecturer:* Before the last paragraph appears, ask what this test cannot find. (A wrong model: all
+# three matrices come from it.)
+
 # %% slideshow={"slide_type": "fragment"}
+# each Jacobian three times: as derived, by the code, by finite differences
 at = {x: 1.2, y: -0.7, theta: 0.9, p_x: -1.5, p_y: 2.2, d: 1.3, dtheta: 0.4, r: 3.1, beta: 1.1}
 X, U, LANDMARK, Z = (np.array([at[one] for one in n]) for n in (pose, control, landmark, [r, beta]))
 numeric = numerical_jacobian
@@ -1016,6 +1051,10 @@ for name, three in three_ways.items():
 # before $(p_x - x)/r^2$ is missing. So the sign of one of six entries is wrong. A robot stands still and
 # corrects its
 # pose 20 times with three landmarks of a known map.
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-the-effect-of-one-wrong-sign"
+# *For the lecturer:* Most students expect that a filter with such a fault reports a large σ. Move the slider
+# slowly from 1 to −1, and let the class say when the error begins to grow.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -1101,6 +1140,10 @@ views.explore(
 # **Read next:** S. Thrun, W. Burgard and D. Fox, *Probabilistic Robotics*, MIT Press, 2005, chapters 3,
 # 5 and 6.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-literature"
+# *For the lecturer:* The filter was extended for the flight to the Moon. Ask what Schmidt changed: he
+# linearised at the current estimate and not along a planned path.
+
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=1
 # ## What you can do now
 #
@@ -1115,8 +1158,12 @@ views.explore(
 #
 # **Exercise:**
 # [04 · Motion and measurement models, Jacobians and the EKF](../exercises/ex04_models_and_jacobians.ipynb). You
-# write $H$ and the Jacobians of a new landmark,
-# derive the Jacobian of a camera, and improve on the linearisation where it fails.
+# write $H$ and the Jacobians of a new landmark, derive the prediction of a robot with two wheels and the
+# Jacobian of a camera, and improve on the linearisation where it fails.
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-what-you-can-do-now"
+# *For the lecturer:* Close with a question: which three matrices does the test compare, and which fault does
+# it miss?
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Deeper: a robot that steers
@@ -1128,6 +1175,10 @@ views.explore(
 # \theta + \tfrac{T V}{B} \sin\gamma \end{bmatrix} \tag{04.18}$$
 #
 # How does $A$ change?
+
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-deeper-a-robot-that-steers"
+# *For the lecturer:* Ask first whether $A$ will change. The section suits a class that works with car-like
+# vehicles.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 from slamlab.models.symbolic import B, T, V, gamma
@@ -1163,6 +1214,9 @@ compare_three("W", W_steered, jacobians.W_steered(X, command, *car), by_u, there
 #
 # $$H_{\mathrm p} J_z = I, \qquad H_{\mathrm r} + H_{\mathrm p} J_{\mathrm r} = 0 \tag{04.19}$$
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-deeper-the-jacobians-of-h-and-g"
+# *For the lecturer:* The two products can be computed on the board without a computer.
+
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 initialised = {p_x: g[0], p_y: g[1]}
 print(sp.simplify(H_p.subs(initialised) * g.jacobian(measurement)))
@@ -1188,7 +1242,11 @@ print(sp.simplify(H_r.subs(initialised) + H_p.subs(initialised) * g.jacobian(pos
 #
 # $L_j$ is column $j$ of $L$. With $\kappa = 3 - n$, the points also have the fourth moment of a Gaussian along each axis.
 
-# %% slideshow={"slide_type": "subslide"}
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-deeper-the-unscented-transform"
+# *For the lecturer:* Ask how many samples a Monte Carlo method needs for this accuracy. The agreement holds
+# for this bearing noise; with a larger σ the five points have an error, too.
+
+# %% slideshow={"slide_type": "subslide"} tags=["code"]
 z_hat, R_sonar = np.array([5.0, 0.5]), np.diag([0.1, 0.5]) ** 2
 L = np.linalg.cholesky((2 + 1) * R_sonar)  # n = 2, κ = 1
 sigma_points = z_hat + np.vstack([np.zeros(2), L.T, -L.T])
@@ -1252,6 +1310,10 @@ views.show(
 # For Gaussian errors this minimum is the most probable pose (*maximum a posteriori*). The filter updates the
 # covariance once, at the end, with the last $H_i$ and $K_i$.
 
+# %% [markdown] slideshow={"slide_type": "notes"} name="note-deeper-the-iterated-ekf"
+# *For the lecturer:* Point at the second row: one more iteration does nearly all of the work. Ask why the
+# covariance is updated only once.
+
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
 prior, P_prior = np.zeros(3), np.diag([0.5, 0.5, 0.3]) ** 2
 near, R_near = np.array([1.0, 0.3]), np.diag([0.02, 0.02]) ** 2
@@ -1267,8 +1329,6 @@ for i in range(5):
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # The plain EKF stops after the first iteration: the range predicted from its pose differs from the measured
-# range by 6 cm, three times the measurement's σ of 2 cm. One more iteration reduces this difference to less
-# than 1 mm.
-# The iterated EKF helps where the
-# measurement is much more accurate than the prediction. It does not help against a false measurement, and
+# range by about three times the measurement's σ of 2 cm. One more iteration nearly removes this difference. The
+# iterated EKF helps where the measurement is much more accurate than the prediction. It does not help against a false measurement, and
 # Gauss–Newton may also diverge.
