@@ -426,9 +426,11 @@ def look(robot, heading, objects, z, bounds):
 # | 3 | smallest ones that the check found | 1.6 | 1.5 |
 # | 4 | smallest ones that the check found | 1.4 | 2 |
 #
-# Together with 0.5 points for unchanged arguments, these are the 5.5 points of the task. For step
-# 1, the check also tries special cases with two robots each. There every feasible pose must be
-# inside, too, but the reference widths are those of the given box and heading.
+# Together with 0.5 points for unchanged arguments, these are the 5.5 points of the task. The check
+# also tries special cases. There every feasible pose must be inside, too, but the reference widths
+# are those of the given box and heading. Special cases with two robots count for step 1 only. Two
+# cases with more robots count for all steps: in one of them there are two separate sets of feasible
+# poses, and one of these sets is so small that random samples miss it.
 #
 # The number of landmarks may be zero, one, or more, and landmarks may be in the robot's box. left
 # − right is at most 4 rad. `bounds` are above 0, and no range is less than its bound. Bearings

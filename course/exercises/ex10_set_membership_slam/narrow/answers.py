@@ -18,6 +18,7 @@ def narrow(robot, heading, objects, z, bounds):
         robot, heading = np.array([low[0], high[0], low[1], high[1]]), np.array([low[2], high[2]])
     return robot, heading
 
+
 # %% way: a grid of cells
 def narrow(robot, heading, objects, z, bounds):
     for _ in range(4):
@@ -40,6 +41,7 @@ def narrow(robot, heading, objects, z, bounds):
         robot, heading = ends[:, :2].T.ravel(), ends[:, 2]
     return robot, heading
 
+
 # %% way: pieces after many rounds
 def narrow(robot, heading, objects, z, bounds):
     for _ in range(12):
@@ -61,7 +63,12 @@ def narrow(robot, heading, objects, z, bounds):
     width = (heading[1] - heading[0]) / 40
     for k in range(40):
         piece = heading[0] + k * width, heading[0] + (k + 1) * width
-        polygon = [(robot[0], robot[2]), (robot[1], robot[2]), (robot[1], robot[3]), (robot[0], robot[3])]
+        polygon = [
+            (robot[0], robot[2]),
+            (robot[1], robot[2]),
+            (robot[1], robot[3]),
+            (robot[0], robot[3]),
+        ]
         for place, sight in zip(objects, z):
             for a, b, c in edges(sight, bounds, np.add(piece, np.pi), place[[0, 0, 1, 1]]):
                 polygon = rest(polygon, a, b, c)
@@ -72,15 +79,18 @@ def narrow(robot, heading, objects, z, bounds):
     x0, y0, x1, y1, right, left = np.transpose(boxes)
     return (x0.min(), x1.max(), y0.min(), y1.max()), (right.min(), left.max())
 
+
 # %% pasted: look
 def narrow(robot, heading, objects, z, bounds):
     return look(robot, heading, objects, z, bounds)
+
 
 # %% pasted: look until nothing shrinks
 def narrow(robot, heading, objects, z, bounds):
     for _ in range(20):
         robot, heading = look(robot, heading, objects, z, bounds)
     return robot, heading
+
 
 # %% pasted: each sighting until nothing shrinks
 def narrow(robot, heading, objects, z, bounds):
@@ -89,14 +99,18 @@ def narrow(robot, heading, objects, z, bounds):
             robot, heading = look(robot, heading, place[None], sight[None], bounds)
     return robot, heading
 
+
 # %% pasted: predict backwards
 def narrow(robot, heading, objects, z, bounds):
     for place, (r, bearing) in zip(objects, z):
         way = -r - bounds[0], -r + bounds[0]
-        back = predict(np.repeat(place, 2), heading, way, (bearing - bounds[1], bearing + bounds[1]))
+        back = predict(
+            np.repeat(place, 2), heading, way, (bearing - bounds[1], bearing + bounds[1])
+        )
         robot = np.where([1, 0, 1, 0], np.maximum(robot, back), np.minimum(robot, back))
         heading = sharpen(heading, robot, np.repeat(place, 2), bearing, bounds[1])
     return robot, heading
+
 
 # %% right: cells of pose space, thrown out by interval tests, again and again
 def narrow(robot, heading, objects, z, bounds):
@@ -135,6 +149,7 @@ def narrow(robot, heading, objects, z, bounds):
             new_hi[i] = min(hi[i], lo[i] + 2 * half[i] * (hit[-1] + 1))
         lo, hi = new_lo, new_hi
     return np.array([lo[0], hi[0], lo[1], hi[1]]), np.array([lo[2], hi[2]])
+
 
 # %% right: slices of the heading, a polygon each, bisected where it counts
 def narrow(robot, heading, objects, z, bounds):
@@ -180,15 +195,68 @@ def narrow(robot, heading, objects, z, bounds):
     )
     return box, np.array([pieces[0][0], pieces[-1][1]])
 
+
+# %% wrong: climbing samples, a margin of 15 %
+def narrow(robot, heading, objects, z, bounds):
+    rng = np.random.default_rng(0)
+    sides = np.reshape([*robot, *heading], (3, 2))
+    middle, half = sides.mean(axis=1), np.ptp(sides, axis=1) / 2
+
+    def need(poses):
+        worst = (np.abs(poses - middle) / half).max(axis=1)
+        for (x, y), seen in zip(objects, z):
+            dx, dy = x - poses[:, 0], y - poses[:, 1]
+            error = np.array([np.hypot(dx, dy) - seen[0], wrap(np.arctan2(dy, dx) - poses[:, 2] - seen[1])])
+            worst = np.maximum(worst, np.abs(error / bounds[:, None]).max(axis=0))
+        return worst
+
+    poses = rng.uniform(*sides.T, (4000, 3))
+    for k in range(60):
+        share = need(poses)
+        best = poses[np.argsort(share)[:100]]
+        if share.min() <= 1 and k > 20:
+            break
+        poses = np.vstack([best, np.repeat(best, 20, axis=0) + half * 0.8**k * rng.standard_normal((2000, 3))])
+    good = poses[need(poses) <= 1]
+    for k in range(40):
+        ends = np.concatenate([good[[good[:, a].argmin(), good[:, a].argmax()]] for a in range(3)])
+        tries = np.repeat(ends, 60, axis=0) + half * 0.85**k * rng.standard_normal((360, 3))
+        good = np.vstack([ends, tries[need(tries) <= 1]])
+    low, high = good.min(axis=0), good.max(axis=0)
+    margin = 0.15 * (high - low)
+    low, high = np.maximum(low - margin, sides[:, 0]), np.minimum(high + margin, sides[:, 1])
+    return np.array([low[0], high[0], low[1], high[1]]), np.array([low[2], high[2]])
+
+
+# %% wrong: random poses, a margin of 20 %
+def narrow(robot, heading, objects, z, bounds):
+    rng = np.random.default_rng(0)
+    sides = np.reshape([*robot, *heading], (3, 2)).astype(float)
+    low, high = sides.T
+    for _ in range(6):
+        poses = rng.uniform(low, high, (20000, 3))
+        share = np.zeros(len(poses))
+        for (x, y), seen in zip(objects, z):
+            dx, dy = x - poses[:, 0], y - poses[:, 1]
+            error = np.array([np.hypot(dx, dy) - seen[0], wrap(np.arctan2(dy, dx) - poses[:, 2] - seen[1])])
+            share = np.maximum(share, np.abs(error / bounds[:, None]).max(axis=0))
+        poses = poses[share <= max(1, np.sort(share)[50])]
+        margin = 0.2 * np.ptp(poses, axis=0)
+        low = np.maximum(low, poses.min(axis=0) - margin)
+        high = np.minimum(high, poses.max(axis=0) + margin)
+    return np.array([low[0], high[0], low[1], high[1]]), np.array([low[2], high[2]])
+
 # %% wrong: look until nothing changes, heading as it was
 def narrow(robot, heading, objects, z, bounds):
     for _ in range(30):
         robot, _ = look(robot, heading, objects, z, bounds)
     return robot, heading
 
+
 # %% wrong: returns what it was given
 def narrow(robot, heading, objects, z, bounds):
     return np.array(robot), np.array(heading)
+
 
 # %% wrong: box and heading changed in place
 def narrow(robot, heading, objects, z, bounds):
@@ -206,6 +274,7 @@ def narrow(robot, heading, objects, z, bounds):
         heading[0], heading[1] = found[:, 4].min(), found[:, 5].max()
     return robot, heading
 
+
 # %% wrong: headings are split soundly, but it fails where there is no object at all (nothing to concatenate)
 def narrow(robot, heading, objects, z, bounds):
     for _ in range(2):
@@ -213,7 +282,9 @@ def narrow(robot, heading, objects, z, bounds):
         boxes, parts = [], []
         for lo, hi in zip(ends[:-1], ends[1:]):
             turned = np.array([lo, hi]) + np.pi
-            lines = np.concatenate([edges(s, bounds, turned, np.repeat(o, 2)) for o, s in zip(objects, z)])
+            lines = np.concatenate(
+                [edges(s, bounds, turned, np.repeat(o, 2)) for o, s in zip(objects, z)]
+            )
             box = robot
             for _ in range(3):
                 box = cut(box, lines)

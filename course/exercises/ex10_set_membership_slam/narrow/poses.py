@@ -77,15 +77,57 @@ def _extremes(key):
     given = {name: np.frombuffer(data).reshape(shape) for name, shape, data in key}
     middle, half = _known(given)
     start = _agreeing(given, middle[:, None], half[:, None])
-    found = _farthest(given, np.repeat(start, 6, axis=1), np.repeat(half[:, None] / 2, 6, axis=1))
+    mirrored = _agreeing(given, _mirrored(given, start), 0.02 * half[:, None], SEEK // 10)
+    scale = np.repeat(half[:, None] / 2, 6, axis=1)
+    found, others = (_farthest(given, np.repeat(a, 6, axis=1), scale) for a in (start, mirrored))
+    far, farther = ((a * DIRECTIONS).sum(axis=-1) for a in (found, others))
+    better = (share(given, others) <= 1) & (farther > far)
+    found[better] = others[better]
     found[(share(given, found) > 1).any(axis=1)] = np.nan
     return found
 
 
-def _agreeing(given, best, scale):
+def _mirrored(given, poses):
+    """Poses (n, 1, 3) mirrored in the line through the first two objects: all ranges to objects on
+    this line stay the same, and the heading is that of the least error of bearings."""
+    if given["objects"].shape[1] < 2:
+        return poses
+    first, along = given["objects"][:, :1], np.diff(given["objects"][:, :2], axis=1)
+    off_line = poses[..., :2] - first
+    across = along[..., ::-1] * [-1, 1] / np.hypot(along[..., :1], along[..., 1:])
+    aside = (off_line * across).sum(axis=-1, keepdims=True)
+    place = poses[..., :2] - 2 * aside * across
+    x, y = np.moveaxis(given["objects"] - place, -1, 0)
+    turn = off(np.arctan2(y, x) - poses[..., 2] - given["z"][..., 1])
+    heading = poses[:, 0, 2] + (turn.min(axis=1) + turn.max(axis=1)) / 2
+    return np.concatenate([place, heading[:, None, None]], axis=-1)
+
+
+def islands(rng, n=16):
+    """Robots near the line between two objects: a second, small set of feasible poses lies on the
+    other side of this line. From there, bearings are wrong by 0.98 of their bound."""
+    toward, heading = rng.uniform(-np.pi, np.pi, (2, n))
+    r, bounds = rng.uniform(1.8, 2.2, (n, 2)), np.tile([0.001, 0.15], (n, 1))
+    aside = 0.98 * bounds[:, 1] / (1 / r).sum(axis=1) * rng.choice([-1, 1], n)
+    pose = np.column_stack([rng.uniform(-3, 3, (n, 2)), heading])
+    c, s = np.cos(toward)[:, None], np.sin(toward)[:, None]
+    u, v = r * [1, -1], np.repeat(aside[:, None], 2, axis=1)
+    objects = pose[:, None, :2] + np.stack([u * c - v * s, u * s + v * c], axis=-1)
+    x, y = np.moveaxis(objects - pose[:, None, :2], -1, 0)
+    z = np.stack([np.hypot(x, y), off(np.arctan2(y, x) - heading[:, None])], axis=-1)
+    return {
+        "robot": boxes_around(pose[:, :2], rng.uniform(0.5, 0.8, (n, 2))),
+        "heading": wrapped(heading - 0.8, np.full(n, 1.6)),
+        "objects": objects,
+        "z": z,
+        "bounds": bounds,
+    }
+
+
+def _agreeing(given, best, scale, rounds=SEEK):
     """(n, 1, 3) feasible poses, by tries round the best so far."""
     rng = np.random.default_rng(0)
-    for k in range(SEEK):
+    for k in range(rounds):
         agrees = (share(given, best) <= AGREE)[:, 0]
         if agrees.all():
             break
