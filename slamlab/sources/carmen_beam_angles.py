@@ -37,9 +37,8 @@ def angles_by_settings(start, view, step, count):
     off = abs(step) * gaps - (abs(view) or abs(step) * gaps)
     if abs(off) > 1.5 * abs(step) or abs(step) * gaps > RADIANS or abs(start) > RADIANS:
         raise ValueError("scans with inconsistent field of view, resolution and number of ranges")
-    if view and abs(off) < 0.25 * abs(
-        step
-    ):  # the field of view is rounded less than the resolution
+    # the field of view is rounded less than the resolution
+    if view and abs(off) < 0.25 * abs(step):
         step = np.copysign(view / gaps, step)
     return start + step * np.arange(count)
 

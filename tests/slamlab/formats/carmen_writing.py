@@ -34,10 +34,11 @@ def flaser(time, robot, angles=HALF, mount=CENTRE, name="FLASER", first=None, sc
     return words(name, len(seen), seen, poses, robot, tail(time))
 
 
-def settings(angles, degrees=False, step=None, count=None):
+def settings(angles, degrees=False, step=None, count=None, view=None):
     unit = np.degrees if degrees else np.asarray
     step = np.mean(np.diff(angles)) if step is None else step
-    values = unit(angles[0]), unit(np.ptp(angles)), unit(step), 81.9, 0.01
+    view = np.ptp(angles) if view is None else view
+    values = unit(angles[0]), unit(view), unit(step), 81.9, 0.01
     return words("0", *(f"{float(v):.6f}" for v in values), "0")
 
 

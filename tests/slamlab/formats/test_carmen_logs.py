@@ -91,6 +91,7 @@ READ = {
     "ROBOTLASER1 before there were remissions": log(robotlaser, remissions=None),
     "ROBOTLASER1 in degrees": log(robotlaser, angles=WIDE, degrees=True),
     "ROBOTLASER1 without a resolution": log(robotlaser, angles=SPARSE, step=0.0),
+    "ROBOTLASER1 whose field of view is a beam too wide": log(robotlaser, view=np.radians(181)),
     "ROBOTLASER1 that runs clockwise": log(robotlaser, angles=WIDE[::-1]),
     "ROBOTLASER2": log(robotlaser, mount=REAR, name="ROBOTLASER2"),
     "RAWLASER1 and ODOM": [*odoms()[:200], *log(rawlaser), *odoms()[200:]],
