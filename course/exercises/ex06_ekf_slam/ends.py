@@ -24,10 +24,10 @@ def whole(inputs, outputs):
 
 class Ends:
     """The ends of runs among landmarks of a ``kind``; ``sure`` is (low, high) of variances in units
-    of those of least squares."""
+    of those of least squares, ``apart`` limits :meth:`apart`."""
 
-    def __init__(self, kind, sure):
-        self.kind, self.sure_within = kind, sure
+    def __init__(self, kind, sure, apart=APART):
+        self.kind, self.sure_within, self.most = kind, sure, apart
 
     def in_order(self, inputs, x, P, ids):
         """x (r, n), P (r, n, n) with landmarks in the order of meeting."""
@@ -91,13 +91,13 @@ class Ends:
         if not whole(inputs, outputs):
             return False
         (least, largest), (low, high) = self.ratios(inputs, outputs), self.sure_within
-        return low <= least and largest <= high and self.apart(inputs, outputs) <= APART
+        return low <= least and largest <= high and self.apart(inputs, outputs) <= self.most
 
     def ratios_told(self, inputs, outputs):
         if not whole(inputs, outputs):
             return "the map does not contain each measured landmark exactly once"
         least, largest = self.ratios(inputs, outputs)
-        if (apart := self.apart(inputs, outputs)) > APART:
+        if (apart := self.apart(inputs, outputs)) > self.most:
             return f"the rms difference of x from least squares is {apart**0.5:.2g} σ"
         return (
             f"in one direction of the state the variance by P is {least:.2g} times that of least "
