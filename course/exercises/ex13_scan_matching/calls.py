@@ -14,8 +14,8 @@ from classroom.exercises.function_calls import (
 def _call_matcher(functions, inputs):
     name, match = next(iter(functions.items()))
 
-    def call(source, target, T, iterations, *share):
-        return match(source, target, T, int(iterations), *share)
+    def call(source, target, T, iterations, *c):
+        return match(source, target, T, int(iterations), *c)
 
     return call_each({name: call}, inputs)
 
@@ -40,7 +40,7 @@ def _call_line_step(functions, inputs):
 CALLS = {
     "13-best-motion": FunctionCall(("best_motion",)),
     "13-icp": FunctionCall(("icp",), _call_matcher),
-    "13-trimmed": FunctionCall(("trimmed_icp",), _call_matcher),
+    "13-kernel": FunctionCall(("robust_icp",), _call_matcher),
     "13-line-step": FunctionCall(("line_step",), _call_line_step),
     "13-overlap": FunctionCall(("match",)),
 }

@@ -1,21 +1,21 @@
 """Exercise 13, scan matching.
 
-``motions``: point clouds and rigid alignment; ``best_motion``, ``icp``, ``trimmed``, ``line_step``
+``motions``: point clouds and rigid alignment; ``best_motion``, ``icp``, ``kernel``, ``line_step``
 and ``overlap``: one task each; ``halves``: scans for the last one.
 """
 
 from classroom.exercises.exercise import Exercise
 from course.exercises.ex13_scan_matching.best_motion.task import BEST_MOTION
 from course.exercises.ex13_scan_matching.icp.task import ICP
+from course.exercises.ex13_scan_matching.kernel.task import KERNEL
 from course.exercises.ex13_scan_matching.line_step.task import LINE_STEP
 from course.exercises.ex13_scan_matching.overlap.task import OVERLAP
-from course.exercises.ex13_scan_matching.trimmed.task import TRIMMED
 
 EXERCISE = Exercise(
     id="13",
     notebook="13_scan_matching",
     title="Scan matching: ICP",
-    tasks=(BEST_MOTION, ICP, TRIMMED, LINE_STEP, OVERLAP),
+    tasks=(BEST_MOTION, ICP, KERNEL, LINE_STEP, OVERLAP),
     calls="course.exercises.ex13_scan_matching.calls",
     allows=(
         "slamlab.geometry",

@@ -26,12 +26,13 @@ def either_sign(rng, low, high, size=None):
     return rng.choice([-1.0, 1.0], size) * rng.uniform(low, high, size)
 
 
-def fit(source, target):
-    """The best motion (..., 3, 3) of clouds (..., n, 2), with its angle by one arctangent."""
-    a, b = source.mean(axis=-2), target.mean(axis=-2)
+def fit(source, target, weights=None):
+    """The best motion (..., 3, 3) of clouds (..., n, 2), weighted by (n,), by one arctangent."""
+    a, b = (np.average(points, axis=-2, weights=weights) for points in (source, target))
+    w = np.ones(source.shape[-2]) if weights is None else weights
     p, q = source - a[..., None, :], target - b[..., None, :]
     cross = p[..., 0] * q[..., 1] - p[..., 1] * q[..., 0]
-    T = motion(0, 0, np.arctan2(cross.sum(axis=-1), (p * q).sum(axis=(-1, -2))))
+    T = motion(0, 0, np.arctan2(cross @ w, (p * q).sum(axis=-1) @ w))
     T[..., :2, 2] = b - (T[..., :2, :2] @ a[..., None])[..., 0]
     return T
 
@@ -43,15 +44,14 @@ def nearest(source, target):
     return rows, apart[np.arange(len(source)), rows]
 
 
-def matched(inputs, kept=lambda share, n: n):
-    """{"result": (k, 3, 3)}: ICP for each row, with ``kept`` of the n correspondences."""
+def matched(inputs, weights=lambda lengths: None):
+    """{"result": (k, 3, 3)}: ICP for each row, with weights of the n correspondences (n,)."""
     found = []
-    for source, target, T, rounds, *share in zip(*inputs.values(), strict=True):
+    for source, target, T, rounds, *c in zip(*inputs.values(), strict=True):
         for _ in range(int(rounds)):
             moved = carried(T, source)
-            rows, apart = nearest(moved, target)
-            best = apart.argsort()[: kept(*share or (1,), len(source))]
-            T = fit(moved[best], target[rows[best]]) @ T
+            rows, lengths = nearest(moved, target)
+            T = fit(moved, target[rows], weights(lengths, *c)) @ T
         found.append(T)
     return {"result": np.array(found)}
 

@@ -119,18 +119,18 @@ def line_step(source, target, normals, sigma, T, Q):
         P = P - np.outer(K, K) * S
     return delta, P
 
-# %% wrong: finite differences
+# %% wrong: central differences with exact steps of a power of two
 def line_step(source, target, normals, sigma, T, Q):
-    def distances(delta):
-        c, s = np.cos(delta[2]), np.sin(delta[2])
-        D = np.array([[c, -s, delta[0]], [s, c, delta[1]], [0, 0, 1]])
-        return np.sum(normals * (carry(T @ D, source) - target), axis=1)
-
-    steps = 1e-5 * np.eye(3)
-    J = np.column_stack([(distances(d) - distances(-d)) / 2e-5 for d in steps])
-    A = np.linalg.inv(Q) + (J / sigma[:, None] ** 2).T @ J
-    delta = np.linalg.solve(A, -J.T @ (distances(np.zeros(3)) / sigma**2))
-    return delta.tolist(), np.linalg.inv(A).tolist()
+    R = T[:2, :2]
+    def e(d):
+        c, s = np.cos(d[2]), np.sin(d[2])
+        D = np.array([[c, -s], [s, c]])
+        return np.sum(normals * ((source @ D.T + d[:2]) @ R.T), axis=1)
+    h = 2.0**-17
+    J = np.array([(e(d) - e(-d)) / (2 * h) for d in h * np.eye(3)]).T
+    P = np.linalg.inv(np.linalg.inv(Q) + (J.T / sigma**2) @ J)
+    r = np.sum(normals * ((source @ R.T) + (T[:2, 2] - target)), axis=1)
+    return -P @ (J.T @ (r / sigma**2)), P
 
 # %% wrong: five Gauss-Newton steps in a loop, T moved in between, the last δ returned
 def line_step(source, target, normals, sigma, T, Q):

@@ -1,13 +1,19 @@
 """Task 13-line-step: a correction by point-to-line residuals and odometry."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from classroom.exercises.correctness_laws import equals
+from classroom.exercises.function_calls.run_and_pack import MAIN
 from classroom.exercises.task import Probe, Task
 from course.exercises.ex13_scan_matching.calls import CALLS
 from course.exercises.ex13_scan_matching.motions import carried, either_sign, motion
 from course.exercises.surveyed import EXACT, NAME, ORIGIN, differences, vague
 
+ROUNDED = (
+    1e-13  # largest error of P, relative to it, its condition number and the largest entry of T
+)
 TURN = np.array([[0.0, -1.0], [1.0, 0.0]])  # by 90° to the left
 
 
@@ -80,6 +86,44 @@ def _on_the_way(inputs):
     return {"e": e, "J": J}
 
 
+def _exact(law, name, limit, scale):
+    """Require, besides a law, that an output has no larger errors than those of rounding."""
+
+    def holds(inputs, outputs):
+        right = want(inputs)
+        off = _largest(outputs[name] - right[name])
+        far = np.maximum(_largest(inputs["T"]), _largest(inputs["target"]))
+        allowed = limit * np.linalg.cond(right["P"]) * far * scale(right)
+        return law.holds(inputs, outputs) & (off <= allowed)
+
+    return replace(law, holds=holds)
+
+
+def _largest(array):
+    return np.abs(array.reshape(len(array), -1)).max(axis=1, initial=0.0)
+
+
+STEP = equals(
+    "step",
+    2.5,
+    "δ minimises the sum of squares of walls and odometry",
+    lambda inputs: {"delta": want(inputs)["delta"]},
+    tolerance=1e-6,
+    asks="The robot rotates by dθ about itself. By how much does this move the point a, in "
+    "the robot's frame? What is the normal n in this frame?",
+    step=_on_the_way,
+)
+COVARIANCE = equals(
+    "covariance",
+    2.5,
+    "P is the inverse of the information matrix of walls and odometry together",
+    lambda inputs: {"P": want(inputs)["P"]},
+    tolerance=EXACT,
+    asks="Without any correspondence, which matrix is P? What does each correspondence add "
+    "to the inverse of P?",
+    step=_on_the_way,
+)
+
 LINE_STEP = Task(
     id="13-line-step",
     title="A point-to-line step and its covariance",
@@ -87,26 +131,8 @@ LINE_STEP = Task(
     inputs=pairs,
     shapes=lambda i: {"delta": (len(i["T"]), 3), "P": (len(i["T"]), 3, 3)},
     laws=(
-        equals(
-            "step",
-            2.5,
-            "δ minimises the sum of squares of walls and odometry",
-            lambda inputs: {"delta": want(inputs)["delta"]},
-            tolerance=1e-6,
-            asks="The robot rotates by dθ about itself. By how much does this move the point a, in "
-            "the robot's frame? What is the normal n in this frame?",
-            step=_on_the_way,
-        ),
-        equals(
-            "covariance",
-            2.5,
-            "P is the inverse of the information matrix of walls and odometry together",
-            lambda inputs: {"P": want(inputs)["P"]},
-            tolerance=EXACT,
-            asks="Without any correspondence, which matrix is P? What does each correspondence add "
-            "to the inverse of P?",
-            step=_on_the_way,
-        ),
+        _exact(STEP, "delta", 3e-14, lambda right: 1.0),
+        _exact(COVARIANCE, "P", 1e-13, lambda right: _largest(right["P"])),
     ),
     probes=(
         Probe("a corridor", lambda rng: pairs(rng, 3, 10, spread=0)),
@@ -118,7 +144,7 @@ LINE_STEP = Task(
         Probe("walls along x and y, integer coordinates", _whole),
         Probe(NAME, _far),
     ),
-    diagnoses=(differences(lambda inputs: {"P": want(inputs)["P"]}),),
+    diagnoses=tuple(differences(lambda i: {"P": want(i)["P"]}, on) for on in (NAME, MAIN)),
     parts=lambda inputs, outputs: {name: outputs[name] for name in ("delta", "P")},
     may_round=False,
     begins=(

@@ -1,4 +1,4 @@
-# %% way: votes, then trimmed ICP, then across
+# %% way: votes, then robust ICP, then across
 def match(source, target, T):
     tree, normals, Q = cKDTree(target), normals_of(target), np.diag([1.0, 1.0, 1.0])
 
@@ -31,7 +31,7 @@ def match(source, target, T):
         i, j = np.unravel_index(H.argmax(), H.shape)
         voted.append((H[i, j], angle, x[i] + 0.15, y[j] + 0.15))
     starts = [motion(angle, (x, y)) for _, angle, x, y in sorted(voted)[-10:]]
-    return best([trimmed_icp(source, target, start, 10, 0.5) for start in starts], (0.15, 0.15))
+    return best([robust_icp(source, target, start, 10, 0.3) for start in starts], (0.15, 0.15))
 
 # %% way: turns by the walls' directions, shifts by votes
 def match(source, target, T):
@@ -154,9 +154,9 @@ def match(source, target, T):
 def match(source, target, T):
     return icp(source, target, T, 60)
 
-# %% pasted: trimmed ICP
+# %% pasted: robust ICP
 def match(source, target, T):
-    return trimmed_icp(source, target, T, 60, 0.6)
+    return robust_icp(source, target, T, 60, 0.3)
 
 # %% pasted: the best motion of the rows
 def match(source, target, T):
@@ -177,7 +177,7 @@ def match(source, target, T):
         T[:2, :2], T[:2, 2] = turned(turn) @ T[:2, :2], T[:2, 2] + [x, y]
     return T
 
-# %% right: starts from many turns, votes for the shift, trimmed ICP, counts close pairs
+# %% right: starts from many turns, votes for the shift, gated steps, counts close pairs
 def match(source, target, T):
     tree = cKDTree(target)
     n = normals_of(target)
@@ -216,9 +216,9 @@ def match(source, target, T):
     out[:2, :2], out[:2, 2] = R, t
     return out
 
-# %% wrong: trimmed ICP from the guess
+# %% wrong: robust ICP from the guess
 def match(source, target, T):
-    return trimmed_icp(source, target, T, 50, 0.6)
+    return robust_icp(source, target, T, 50, 0.2)
 
 # %% wrong: best of the voted turns, but the inverse motion is returned
 def match(source, target, T):
@@ -232,4 +232,4 @@ def match(source, target, T):
             best = (H[i, j], R, np.array([ex[i] + 0.15, ey[j] + 0.15]))
     S = np.eye(3)
     S[:2, :2], S[:2, 2] = best[1], best[2]
-    return np.linalg.inv(trimmed_icp(source, target, S, 40, 0.5))
+    return np.linalg.inv(robust_icp(source, target, S, 40, 0.2))

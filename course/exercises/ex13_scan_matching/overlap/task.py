@@ -55,9 +55,9 @@ STEPS = (
         4,
         SOLVED,
         HOME,
-        "Up to which error of the guess does trimmed ICP converge to the truth? The rotation is "
+        "Up to which error of the guess does robust ICP converge to the truth? The rotation is "
         "unknown: how many rotations would you have to try?",
-        "Transform a source by a known T, and use it as the target. Run trimmed ICP from guesses "
+        "Transform a source by a known T, and use it as the target. Run robust ICP from guesses "
         "with a rotation error of 0°, 10°, 20° and so on, and print the error of each result.",
     ),
     _step(
