@@ -90,6 +90,18 @@ def place(x, P, z, R):
     full = np.block([[P, np.zeros((3, 2))], [np.zeros((2, 3)), R]])
     return f(s), J @ full @ J.T, J[:, :3] @ P
 
+# %% wrong: by seven-point differences with a step of 0.08
+def place(x, P, z, R):
+    def line(q):
+        a = q[2] + q[4]
+        return np.array([q[3] + q[0] * np.cos(a) + q[1] * np.sin(a), a])
+    q, J = np.append(x, z), np.zeros((2, 5))
+    for k, e in enumerate(0.08 * np.eye(5)):
+        for times, weight in ((1, 0.75), (2, -0.15), (3, 1 / 60)):
+            J[:, k] += weight * (line(q + times * e) - line(q - times * e)) / 0.08
+    X = J[:, :3] @ P
+    return line(q), X @ J[:, :3].T + J[:, 3:] @ R @ J[:, 3:].T, X
+
 # %% wrong: the covariance by unscented points, the mean of them for the line
 def place(x, P, z, R):
     s = np.concatenate([x, z])

@@ -7,7 +7,7 @@ from classroom.exercises.references import Reference
 from classroom.exercises.task import Probe, Task
 from course.exercises.ex06_ekf_slam.beliefs import T, covariances, either_sign
 from course.exercises.ex09_slam_with_walls.calls import CALLS
-from course.exercises.surveyed import EXACT, FAR, differences, vague
+from course.exercises.surveyed import EXACT, FARTHEST, differences, vague
 from slamlab import models
 from slamlab.models import jacobians
 
@@ -79,10 +79,13 @@ def _parts(inputs, outputs):
 
 
 def _far(rng):
-    return vague(sights(rng, 4, 0, ahead=(FAR, 2 * FAR)), ["P", "R"])
+    found = vague(sights(rng, 4, 0), ["P", "R"])
+    found["z"][:, 1] = -found["x"][:, 2]  # α is 0
+    found["x"][:, 0] += FARTHEST
+    return found
 
 
-FAR_OFF = "a robot 1000 km from the origin"
+FAR_OFF = "a robot a million kilometres from the origin"
 
 WHOLE = {
     "x": np.array([[1.0, 2.0, 0.0], [3.0, -1.0, np.pi / 2], [0.0, 2.0, np.pi]]),

@@ -119,6 +119,21 @@ def update(x, P, z, j, R):
     K = P @ H.T @ np.linalg.pinv(H @ P @ H.T + R)
     return [x + K @ v, P - K @ H @ P]
 
+# %% wrong: H by seven-point differences with a step of 0.05
+def update(x, P, z, j, R):
+    def seen(s):
+        rho, alpha = s[3 + 2 * j], s[4 + 2 * j]
+        return np.array([rho - s[0] * np.cos(alpha) - s[1] * np.sin(alpha), alpha - s[2]])
+    H = np.zeros((2, len(x)))
+    for k, e in enumerate(0.05 * np.eye(len(x))):
+        for times, weight in ((1, 45), (2, -9), (3, 1)):
+            H[:, k] += weight * (seen(x + times * e) - seen(x - times * e)) / 3
+    v = z - seen(x)
+    v[1] = wrap(v[1])
+    S = H @ P @ H.T + R
+    K = P @ H.T @ np.linalg.inv(S)
+    return x + K @ v, P - K @ S @ K.T
+
 # %% wrong: wraps everything from theta on in the new state, so a rho above pi is wrapped too
 def update(x, P, z, j, R):
     at = 3 + 2 * j

@@ -7,7 +7,7 @@ from classroom.exercises.references import Reference
 from classroom.exercises.task import Probe, Task
 from course.exercises.ex06_ekf_slam.beliefs import T, covariances, either_sign
 from course.exercises.ex09_slam_with_walls.calls import CALLS
-from course.exercises.surveyed import EXACT, FAR, corrections, differences, vague
+from course.exercises.surveyed import EXACT, FAR, FARTHEST, corrections, differences, vague
 from slamlab import models
 from slamlab.geometry import wrap
 from slamlab.models import jacobians
@@ -105,12 +105,14 @@ def _on_the_way(inputs):
     return {"v": v, "H": H, "S": H @ inputs["P"] @ T(H) + inputs["R"]}
 
 
-def carried_off(inputs):
-    """Move robot and walls along the normal of wall j: where ρ is large, a turn of it is not."""
+def carried_off(inputs, far=3 * FAR):
+    """Turn robot and walls so that the normal of wall j is the x-axis, and move them along it."""
     x = inputs["x"].copy()
     along = x[np.arange(len(x)), 4 + 2 * inputs["j"]]
-    x[:, :2] += 3 * FAR * np.column_stack([np.cos(along), np.sin(along)])
-    x[:, 3::2] += 3 * FAR * np.cos(x[:, 4::2] - along[:, None])
+    c, s = np.cos(along), np.sin(along)
+    x[:, :2] = np.column_stack([far + c * x[:, 0] + s * x[:, 1], c * x[:, 1] - s * x[:, 0]])
+    x[:, ANGLES] = wrap(x[:, ANGLES] - along[:, None])
+    x[:, 3::2] += far * np.cos(x[:, 4::2])
     return inputs | {"x": x}
 
 
@@ -121,6 +123,7 @@ def _parts(inputs, outputs):
 
 
 FAR_OFF = "a robot 3000 km from the origin"
+FARTHER = "a robot a million kilometres from the origin"
 MEAN = {"angles": {"x": ANGLES}, "step": _on_the_way}
 WRAPPED = "wrapped", "P"
 
@@ -142,9 +145,13 @@ UPDATE = Task(
         Probe("a distance four metres longer than predicted", _far_off),
         Probe("an estimated position beyond the wall", _on_its_other_side),
         Probe("uncorrelated errors", _uncorrelated),
-        Probe(FAR_OFF, lambda rng: vague(carried_off(sights(rng, 6)), ["P", "R"])),
+        Probe(
+            FARTHER,
+            lambda rng: vague(carried_off(sights(rng, 6), FARTHEST), ["P", "R"]),
+            ("P",),
+        ),
     ),
-    diagnoses=(differences(lambda inputs: {"P": want(inputs)["P"]}, FAR_OFF),),
+    diagnoses=(differences(lambda inputs: {"P": want(inputs)["P"]}, FARTHER),),
     shapes=lambda inputs: {"x": inputs["x"].shape, "P": inputs["P"].shape},
     parts=_parts,
     laws=(
