@@ -12,7 +12,7 @@ from functools import partial
 import numpy as np
 
 from course.studies import study_command
-from course.studies.study_command import TABLES, package_versions, seeds
+from course.studies.study_command import TABLES, first_runs, package_versions, seeds
 from slamlab.evaluation.containment import outside
 from slamlab.filters.set_membership.angle_intervals import FULL_CIRCLE
 from slamlab.filters.set_membership.bor_filter import BOR
@@ -149,6 +149,7 @@ def study(runs, world=None, jobs=None, scheduler=None):
     return {
         "versions": package_versions(),
         "seeds": [0, runs - 1],
+        "first_runs": first_runs(found),
         "world": asdict(world) if world else "of any kind",
         "counted": {name: sum(one[name] for one in found) for name in found[0]},
     }

@@ -11,7 +11,15 @@ from functools import partial
 import numpy as np
 
 from course.studies.ideal_ekf_slam import IdealEkfSlam
-from course.studies.study_command import TABLES, package_versions, parser, rounded, seeds, write
+from course.studies.study_command import (
+    TABLES,
+    first_runs,
+    package_versions,
+    parser,
+    rounded,
+    seeds,
+    write,
+)
 from slamlab.estimators.ekf_slam import EkfSlam, Q_arc
 from slamlab.evaluation import band, consistency, nees
 from slamlab.geometry import compose, wrap
@@ -95,6 +103,7 @@ def study(loop, runs, jobs=None, scheduler=None):
     return {
         "versions": package_versions(),
         "seeds": [0, runs - 1],
+        "first_runs": first_runs(results),
         "scenario": asdict(loop),
         "band_95": band(3, runs),
         "filters": rounded({name: row([result[name] for result in results]) for name in FILTERS}),

@@ -15,7 +15,7 @@ from course.studies import study_command
 from course.studies.filter_comparison_table import rows
 from course.studies.filter_costs import scan_costs
 from course.studies.filter_records import LOST, record, summary
-from course.studies.study_command import TABLES, package_versions, seeds
+from course.studies.study_command import TABLES, first_runs, package_versions, seeds
 from slamlab.estimators.factory import make
 from slamlab.estimators.landmark_observations import observed_landmarks
 from slamlab.estimators.set_membership_slam import SetMembershipSlam
@@ -107,6 +107,7 @@ def study(runs, jobs=None, scheduler=None):
     return {
         "versions": package_versions(),
         "seeds": [run_seeds[0], run_seeds[-1]],
+        "first_runs": first_runs(results),
         "lost_beyond_m": LOST,
         "six": six_data_sets(),
         "many": {kind: rows([result[kind] for result in results]) for kind in results[0]},

@@ -12,7 +12,7 @@ from course.studies import study_command
 from course.studies.arena_corners import associated_by_ekf
 from course.studies.filter_comparison import FILTERS, FIRST_SEED, with_corners
 from course.studies.paired_statistics import median_interval
-from course.studies.study_command import TABLES, package_versions, seeds
+from course.studies.study_command import TABLES, first_runs, package_versions, seeds
 from slamlab.evaluation.consistency import nees
 from slamlab.geometry import wrap
 from slamlab.parallel import map_runs
@@ -62,6 +62,7 @@ def study(runs, jobs=None, scheduler=None):
     return {
         "versions": package_versions(),
         "seeds": [run_seeds[0], run_seeds[-1]],
+        "first_runs": first_runs(results),
         "filters": {
             name: {
                 "outside_mean": round(float(each.mean()), 4),

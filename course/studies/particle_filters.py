@@ -17,7 +17,7 @@ from course.studies.paired_statistics import (
     paired_difference,
     share_interval,
 )
-from course.studies.study_command import TABLES, package_versions, seeds
+from course.studies.study_command import TABLES, first_runs, package_versions, seeds
 from slamlab.parallel import map_runs
 
 TABLE = TABLES / "particle_filters.json"
@@ -60,6 +60,7 @@ def study(runs, jobs=None, scheduler=None):
     return {
         "versions": package_versions(),
         "runs": runs,
+        "first_runs": first_runs(results),
         "found": {n: share_interval(sum(r["found"][n] for r in results), runs) for n in COUNTS},
         "injected": {k: _injection_row([r["injected"][k] for r in results]) for k in INJECTED},
         "maps": {name: _map_row(laps, name) for name in laps},

@@ -4,14 +4,18 @@ import argparse
 import json
 import platform
 import sys
+from dataclasses import is_dataclass
 from functools import partial
 from importlib.metadata import version
 from pathlib import Path
+
+import numpy as np
 
 import slamlab
 from slamlab.parallel import RunError
 
 TABLES = Path(__file__).parent  # the stored tables
+STORED_RUNS = 3  # whose numbers stand in a table, beside those of all runs
 
 
 def stored(name):
@@ -50,6 +54,35 @@ def rounded(table):
         name: {key: round(float(value), 4) for key, value in numbers.items()}
         for name, numbers in table.items()
     }
+
+
+def first_runs(results):
+    """Return the numbers of the first three runs, so that they can be made again and compared.
+
+    Parameters
+    ----------
+    results : list, by run nested dicts, sequences and dataclasses of numbers and arrays
+
+    Returns
+    -------
+    list of {names: number}; for an array, the RMS of its finite numbers
+    """
+    return [dict(_numbers(result)) for result in results[:STORED_RUNS]]
+
+
+def _numbers(found, name=""):
+    if is_dataclass(found):
+        found = vars(found)
+    elif isinstance(found, (tuple, list)):
+        found = dict(enumerate(found))
+    if isinstance(found, dict):
+        for key, each in found.items():
+            yield from _numbers(each, f"{name} / {key}".removeprefix(" / "))
+    elif found is not None:
+        finite = np.ravel(found)[np.isfinite(np.ravel(found).astype(float))]
+        if len(finite):
+            number = finite[0] if np.ndim(found) == 0 else np.sqrt(np.mean(finite**2))
+            yield name, float(f"{number:.6g}")
 
 
 def main(name, runs, study, argv=None):

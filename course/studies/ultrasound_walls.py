@@ -12,7 +12,7 @@ import numpy as np
 
 from course.studies import foot_point_ablation, study_command
 from course.studies.line_extraction_errors import expected_from, lines_of
-from course.studies.study_command import TABLES, package_versions, rounded, seeds
+from course.studies.study_command import TABLES, first_runs, package_versions, rounded, seeds
 from course.studies.wall_slam_faults import errors
 from slamlab.estimators.dead_reckoning import DeadReckoning
 from slamlab.estimators.wall_slam import GATE, WallSlam
@@ -107,8 +107,8 @@ def study(runs, jobs=None, scheduler=None):
     return {
         "versions": package_versions(),
         "seeds": [0, runs - 1],
+        "first_runs": first_runs(results),
         "band_95": band(3, runs),
-        "seed_0": {name: round(float(results[0][name][0]), 6) for name in (*errors_by_name, SLIP)},
         "drives": rounded(errors_by_name),
         "nees": {name: row[0].round(4).tolist() for name, row in sizes.items()},
         "nees_along_arcs": {name: row[1].round(4).tolist() for name, row in sizes.items()},

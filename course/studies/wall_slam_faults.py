@@ -9,7 +9,7 @@ import numpy as np
 
 from course.studies import foot_point_ablation, study_command
 from course.studies.line_extraction_errors import expected_from, lines_of, wall_under
-from course.studies.study_command import TABLES, package_versions, rounded, seeds
+from course.studies.study_command import TABLES, first_runs, package_versions, rounded, seeds
 from course.studies.wall_slam_loop import WallLoop
 from slamlab.estimators.dead_reckoning import DeadReckoning
 from slamlab.estimators.foot_point_slam import FootPointSlam
@@ -258,12 +258,8 @@ def study(runs, jobs=None, scheduler=None):
     return {
         "versions": package_versions(),
         "seeds": [0, runs - 1],
+        "first_runs": first_runs(results),
         "band_95": band(3, runs),
-        "seed_0": {  # of one run, to check that it is reproduced
-            key[1]: round(float(row["rms_m"]), 6)
-            for key, row in results[0].items()
-            if isinstance(key, tuple) and key[0] == "situation-2"
-        },
         "situations": {situation: rounded(rows) for situation, rows in tables.items()},
         "listing": rounded(by_c),
     }

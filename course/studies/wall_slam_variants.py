@@ -6,7 +6,7 @@ import sys
 import numpy as np
 
 from course.studies import study_command
-from course.studies.study_command import TABLES, package_versions, rounded, seeds
+from course.studies.study_command import TABLES, first_runs, package_versions, rounded, seeds
 from slamlab.estimators.base import Estimator
 from slamlab.estimators.dead_reckoning import DeadReckoning
 from slamlab.estimators.foot_point_corrections import CORRECTIONS
@@ -101,6 +101,7 @@ def study(runs, jobs=None, scheduler=None):
     return {
         "versions": package_versions(),
         "seeds": [0, runs - 1],
+        "first_runs": first_runs(results),
         "band_95": band(3, runs),
         "situations": table,
     }

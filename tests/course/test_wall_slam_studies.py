@@ -6,7 +6,6 @@ import pytest
 from course.studies import (
     corridor,
     line_extraction_errors,
-    ultrasound_walls,
     wall_slam_faults,
     wall_slam_loop,
 )
@@ -47,15 +46,6 @@ def test_a_tally_loses_no_line_and_no_wall(room, found):
     assert count["walls"] == count["entered"] - count["merged"]
     _, _, maps = wall_slam_faults.driven(room, VARIANTS[RIGHT](room), found)
     assert count["walls"] == len(maps[-1])
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", [RIGHT, "associated before prediction"])
-def test_a_drive_gives_its_numbers_of_the_stored_table_again(room, name):
-    rows = wall_slam_faults.rows_of("situation-2", room, {name: VARIANTS[name]})
-    for (_, variant), row in rows.items():
-        was = stored("wall_slam_faults")["seed_0"][variant]
-        assert row["rms_m"] == pytest.approx(was, abs=2e-6)
 
 
 def test_redrawn_lines_have_the_errors_of_their_covariance(room, found):
@@ -104,13 +94,6 @@ def test_a_wall_at_the_end_helps_both_and_foot_points_stay_overconfident():
     measured, foot_points = both
     assert max(measured.errors[-1], foot_points.errors[-1]) < 0.05
     assert foot_points.nees > 5 * measured.nees
-
-
-@pytest.mark.slow
-def test_a_drive_by_sound_gives_its_numbers_of_the_stored_table_again():
-    found = ultrasound_walls.errors_of(0)
-    for name, was in stored("ultrasound_walls")["seed_0"].items():
-        assert found[name][0] == pytest.approx(was, abs=2e-6)
 
 
 def test_lines_of_walls_hold_their_ends(room):
