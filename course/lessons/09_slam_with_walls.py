@@ -452,7 +452,6 @@ compare(P_merged, expected)
 
 
 # %% slideshow={"slide_type": "fragment"}
-# both tours with the system: poses, covariances and maps after each step
 poses, P, maps, loops = {}, {}, {}, {}
 for name, source in sources.items():
     loops[name] = WallLoop(source)
