@@ -12,6 +12,7 @@ from scipy.stats import chi2
 from slamlab.geometry import between, compose, wrap
 from slamlab.models.symbolic import numeric
 from slamlab.posegraph import PoseGraph, edge_error, edge_jacobians, edge_symbolic
+from slamlab.posegraph.marginal_covariances import leave_one_out
 from slamlab.posegraph.robust_kernels import DCS, PHI, Cauchy, Huber, Truncated
 from tests.property_testing import assert_same_pose, finite_differences, poses, same_angle
 
@@ -310,6 +311,32 @@ def test_outlier_edges_are_rejected(seed, false):
     # a true edge may be rejected, too, if that costs less
     assert optimum.chi2 < clean.chi2 + false * PHI + 1e-3
     assert graph.dropped == set(np.flatnonzero(optimum.weights == 0))
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_few_right_loops_far_apart_are_kept_beside_more_false_ones(seed):
+    rng = np.random.default_rng(seed)
+    graph, _ = square_tour(rng, laps=4, robust=True)
+    loops = [edge for edge in graph.edges if edge.robust]
+    graph.edges = [edge for edge in graph.edges if not edge.robust] + loops[::20]
+    false = set(range(len(graph.edges), len(graph.edges) + 8))
+    for _ in false:
+        i = int(rng.integers(0, 3 * SIDE))
+        j = int(rng.integers(i + 4, len(graph)))
+        graph.add_edge(i, j, [*rng.choice([-20, 20], 2), 0.5], INFORMATION, robust=True)
+    graph.optimise()
+    assert graph.dropped == false
+
+
+def test_leaving_an_edge_out_saves_what_its_leverage_predicts():
+    graph, _ = square_tour(np.random.default_rng(3), noise=0.3)
+    before = graph.optimise().chi2
+    loops = [k for k, edge in enumerate(graph.edges) if edge.j < edge.i][::6]
+    saved = leave_one_out(graph._problem(), graph.poses, np.array(loops))
+    for k, less in zip(loops, saved, strict=True):
+        without = deepcopy(graph)
+        del without.edges[k]
+        assert before - without.optimise().chi2 == pytest.approx(less, rel=0.02, abs=0.01)
 
 
 def test_a_trusted_false_edge_bends_the_graph():
