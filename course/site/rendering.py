@@ -120,8 +120,8 @@ def _place(error, cell, lines):
     frames = traceback.extract_tb(error.__traceback__)
     in_cells = [each.lineno for each in frames if each.filename.startswith("<ipython-input")]
     line = in_cells[0] if in_cells else error.lineno  # of a SyntaxError
-    told = "".join(traceback.format_exception(error))
-    return f"{told}{cell}, line {line}: {lines[line - 1].strip()}"
+    shown = "".join(traceback.format_exception(error))
+    return f"{shown}{cell}, line {line}: {lines[line - 1].strip()}"
 
 
 if __name__ == "__main__":
