@@ -43,6 +43,12 @@ CHIEF = (  # what is shown, the peer, and the row's name and reference
     ("optimising the pose graph city10000", "GTSAM", "city10000: optimising: slamlab", "GTSAM"),
     ("optimising the pose graph manhattan", "GTSAM", "manhattan: optimising: slamlab", "GTSAM"),
     ("optimising the pose graph intel", "GTSAM", "intel: optimising: slamlab", "GTSAM"),
+    (
+        "intel with 10 to 1000 random false loops",
+        "GTSAM's GNC",
+        "intel, random false loops: slamlab",
+        "GTSAM's GNC",
+    ),
 )
 
 
