@@ -80,7 +80,7 @@ def _parts(inputs, outputs):
 
 def _far(rng):
     found = vague(sights(rng, 4, 0), ["P", "R"])
-    found["z"][:, 1] = -found["x"][:, 2]  # α is 0
+    found["z"][:, 1] = found["x"][:, 2] = 0  # α is exactly 0
     found["x"][:, 0] += FARTHEST
     return found
 
