@@ -83,9 +83,8 @@ class OdometryCheck(Estimator):
         odometry, matched = np.array(self.odometry), np.array(self.matched)
         if len(odometry) < MIN_PAIRS:
             return []
-        return [*_of_turns(odometry, matched), *_of_distances(odometry, matched)] or _of_outliers(
-            odometry, matched
-        )
+        scaled = [*_of_turns(odometry, matched), *_of_distances(odometry, matched)]
+        return scaled or _of_outliers(odometry, matched)
 
 
 def _of_turns(odometry, matched):

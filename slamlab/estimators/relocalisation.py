@@ -32,9 +32,8 @@ class Relocalisation:
         track = self.keyframes[i].track
         tracks = np.array([keyframe.track for keyframe in self.keyframes[: i + 1]])
         count = np.count_nonzero(tracks == track)
-        if track in self.loop_closure.connected or (
-            count > FIRST_KEYFRAMES and count % LATER_EVERY
-        ):
+        left_out = count > FIRST_KEYFRAMES and count % LATER_EVERY
+        if left_out or track in self.loop_closure.connected:
             return
         kept = []
         for j in np.flatnonzero(tracks < track):
@@ -76,11 +75,10 @@ class Relocalisation:
             return
         clusters = []
         for hypothesis in hypotheses:
-            cluster = next((c for c in clusters if agree(c[0], hypothesis)), None)
-            if cluster is None:
-                clusters.append([hypothesis])
-            else:
-                cluster.append(hypothesis)
+            cluster = next((c for c in clusters if agree(c[0], hypothesis)), [])
+            if not cluster:
+                clusters.append(cluster)
+            cluster.append(hypothesis)
         clusters.sort(key=votes)
         sizes = [0, *map(votes, clusters)]
         if sizes[-1] >= MIN_VOTES and sizes[-1] > sizes[-2] + 1:

@@ -141,14 +141,11 @@ def _is_number(field):
 
 def _header(number, text, commented):
     text = text[:HEADER_LENGTH].decode("utf-8", "replace").lower().strip("#%/ \t")
-    parts = re.split(r"[,;\t]", text) if re.search(r"[,;\t]", text) else _blank_separated(text)
+    parts = re.split(r"[,;\t]", text)
+    if len(parts) == 1:  # names are separated by blanks; each may have its unit in brackets
+        parts = re.findall(r"[^\s\[(]+(?:\s*[\[(][^\])]*[\])])?", text)
     named = [_name(part) for part in parts]
     return Header(number, [name for name, _ in named], [unit for _, unit in named], commented)
-
-
-def _blank_separated(text):
-    """Split names separated by blanks; each name may have its unit in brackets."""
-    return re.findall(r"[^\s\[(]+(?:\s*[\[(][^\])]*[\])])?", text)
 
 
 def _name(part):
