@@ -1273,8 +1273,8 @@ Markdown(
 # sections below this one are optional.
 #
 # **Exercise:** [12 · Three filters on one robot](../exercises/ex12_three_filters.ipynb). You compute a
-# motion from encoder ticks, find the scan from which a run is lost, solve (12.6), compare two filters
-# on the same runs, and write a filter that relocalises itself.
+# motion from encoder ticks, compute the ATE and the RPE of a run, solve (12.6), compare two filters on
+# the same runs, and write a filter that relocalises itself.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Deeper: the validation gate in numbers

@@ -11,6 +11,15 @@ from classroom.exercises.function_calls import (
 )
 
 
+def _call_errors(functions, inputs):
+    errors, found = functions["trajectory_errors"], []
+    for estimate, truth, steps in argument_rows(inputs):
+        value = errors(estimate, truth, int(steps))
+        found.append(_pair(value, "trajectory_errors", "ate, rpe"))
+    ate, rpe = np.transpose(found)
+    return {"ate": ate, "rpe": rpe}
+
+
 def _call_interval(functions, inputs):
     interval = functions["interval"]
     pairs = zip(*inputs.values(), strict=True)
@@ -22,10 +31,10 @@ def _call_compare(functions, inputs):
     return {"result": np.array([_pair(compare(*row), "compare") for row in argument_rows(inputs)])}
 
 
-def _pair(value, function):
+def _pair(value, function, names="low, high"):
     found = to_array(value, function)
     if found.shape != (2,):
-        raise StudentError("malformed", f"{function} must return two numbers: return low, high")
+        raise StudentError("malformed", f"{function} must return two numbers: return {names}")
     return found
 
 
@@ -42,7 +51,7 @@ def _call_relocalise(functions, inputs):
 
 CALLS = {
     "12-odometry": FunctionCall(("odometry",)),
-    "12-lost": FunctionCall(("lost_since",)),
+    "12-ate": FunctionCall(("trajectory_errors",), _call_errors),
     "12-interval": FunctionCall(("interval",), _call_interval),
     "12-paired": FunctionCall(("compare",), _call_compare),
     "12-relocalise": FunctionCall(("relocalise",), _call_relocalise),

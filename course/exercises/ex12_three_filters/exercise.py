@@ -1,12 +1,12 @@
 """Exercise 12, three filters.
 
-``odometry``, ``lost``, ``interval``, ``paired``, ``relocalise``: a task each; ``hall``: the runs of
+``odometry``, ``ate``, ``interval``, ``paired``, ``relocalise``: a task each; ``hall``: the runs of
 ``relocalise``.
 """
 
 from classroom.exercises.exercise import Exercise
+from course.exercises.ex12_three_filters.ate.task import ATE
 from course.exercises.ex12_three_filters.interval.task import INTERVAL
-from course.exercises.ex12_three_filters.lost.task import LOST
 from course.exercises.ex12_three_filters.odometry.task import ODOMETRY
 from course.exercises.ex12_three_filters.paired.task import PAIRED
 from course.exercises.ex12_three_filters.relocalise.task import RELOCALISE
@@ -15,7 +15,7 @@ EXERCISE = Exercise(
     id="12",
     notebook="12_three_filters",
     title="Three filters on one robot",
-    tasks=(ODOMETRY, LOST, INTERVAL, PAIRED, RELOCALISE),
+    tasks=(ODOMETRY, ATE, INTERVAL, PAIRED, RELOCALISE),
     calls="course.exercises.ex12_three_filters.calls",
     allows=("slamlab.geometry", "slamlab.layers", "slamlab.views"),
     answers=(

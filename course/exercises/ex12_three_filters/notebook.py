@@ -1,7 +1,7 @@
 # %% [markdown]
 # # Exercise 12 · Three filters on one robot
 #
-# **You will be able to** compute a motion from encoder ticks, find since when a run has been lost, compute a
+# **You will be able to** compute a motion from encoder ticks, compute the errors of a trajectory, compute a
 # confidence interval for the share of lost runs, compare two filters in a paired comparison, and relocalise a
 # kidnapped robot.
 #
@@ -23,7 +23,7 @@ import numpy as np
 
 from classroom.checks import ask, attempt, check
 from slamlab import views
-from slamlab.geometry import compose, wrap
+from slamlab.geometry import between, compose, wrap
 from slamlab.layers import Points, Poses
 
 # %% [markdown]
@@ -84,55 +84,74 @@ def _():
 # The trajectory is a spiral to the left, because the robot turns a little more in each step.
 
 # %% [markdown]
-# ## 2 · Since when is a run lost?
+# ## 2 · Absolute and relative trajectory error
 #
-# The position error of a filter is known at each reading. A run **strays** at a reading if its error exceeds a
-# limit. An error that equals the limit does not exceed it. A run is **lost** if its error exceeds the limit at the
-# last reading. It has been lost since *the first reading from which on its error always exceeds the limit*.
+# The lesson compares filters by two numbers. $x_i$ are the true poses of a run and $\hat x_i$ the estimated ones, at the same
+# $n$ readings. Here each trajectory is in a **frame of its own**, as if you did not know where the run began.
 #
-# **Your task.** Return the number of that reading, counted from 0, or −1 if the run is not lost. A run has at
-# least one reading.
+# The **absolute trajectory error (ATE)** is the root mean square of the distances between the estimated and the true
+# positions, after the best alignment: the rotation and the translation of the whole estimate, without a scale, that make
+# it smallest. The **relative pose error (RPE)** over $k$ steps needs no alignment. With the motions
+# $m_i = \ominus x_i \oplus x_{i+k}$ and $\hat m_i = \ominus \hat x_i \oplus \hat x_{i+k}$, it is the root mean square of the
+# distances of $\ominus m_i \oplus \hat m_i$, for each $i$ from 0 to $n - 1 - k$. `between(a, b)` is $\ominus a \oplus b$.
+#
+# For the alignment, minimise $\sum_i \left|\mathrm{Rot}(\alpha)\,\hat p_i + t - p_i\right|^2$: which $t$ is the best one for a
+# given $\alpha$? Insert it, and set the derivative with respect to $\alpha$ to zero. Two angles remain. Which is the minimum?
+#
+# **Your task.** Return both numbers, each with a relative error of at most $10^{-5}$. A run has at least two poses, $k$ lies
+# between 1 and $n - 1$, and headings may be wrapped or not. The robot may also stand still, or drive straight ahead.
+#
+# | required | points |
+# | --- | --- |
+# | ATE [m] | 3 |
+# | RPE [m] | 2 |
 
 
-# %% name="lost-since"
-def lost_since(errors, limit):
-    """First reading from which on the error always exceeds the limit, or -1.
+# %% name="trajectory-errors"
+def trajectory_errors(estimate, truth, steps):
+    """The absolute and the relative trajectory error of an estimate.
 
-    errors : (n,) [m];  limit : [m];  returns an integer
+    estimate, truth : (n, 3) poses at the same readings, each in a frame of its own [m, m, rad]
+    steps : integer, number of steps of a motion for the RPE;  returns ate, rpe [m]
     """
     ### BEGIN SOLUTION
-    near = np.flatnonzero(errors <= limit)
-    if len(near) == 0:
-        return 0
-    return near[-1] + 1 if near[-1] < len(errors) - 1 else -1
+    a = estimate[:, :2] - estimate[:, :2].mean(axis=0)
+    b = truth[:, :2] - truth[:, :2].mean(axis=0)
+    angle = np.arctan2(np.sum(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]), np.sum(a * b))
+    c, s = np.cos(angle), np.sin(angle)
+    off = a @ np.array([[c, s], [-s, c]]) - b
+    ate = np.sqrt(np.mean(np.sum(off**2, axis=1)))
+    m, found = (between(poses[:-steps], poses[steps:]) for poses in (truth, estimate))
+    wrong = between(m, found)
+    rpe = np.sqrt(np.mean(np.sum(wrong[:, :2] ** 2, axis=1)))
+    return ate, rpe
     ### END SOLUTION
 
 
 # %%
-check("12-lost")
+check("12-ate")
 
 # %% [markdown]
-# Here are three invented runs. The legend shows since when each run has been lost, or −1.
+# Two invented estimates of one run: the first drifts slowly, the second jitters about the truth.
 
 
-# %% name="three-runs"
+# %% name="drift-or-jitter"
 @attempt
 def _():
-    k, limit = np.arange(60), 0.12
-    runs = {
-        "never strays": 0.05 + 0.03 * np.sin(k / 4),
-        "strays and returns": 0.03 + 0.3 * np.exp(-(((k - 25) / 6) ** 2)),
-        "strays twice": 0.045 + 0.0001 * k**2 + 0.05 * np.sin(k / 3),
-    }
-    dated = {f"{name}: {lost_since(run, limit):.0f}": run for name, run in runs.items()}
-    fig, ax = views.curves(k, dated, "reading", "position error [m]", "Since when is a run lost?")
-    ax.axhline(limit, color=views.COLOURS["limit"], linestyle="dashdot")
-    views.show(fig, alt=f"Errors of three runs over time, and the limit of {limit} m.")
+    t = np.linspace(0, 2 * np.pi, 100)
+    truth = np.column_stack([3 * np.cos(t), 3 * np.sin(t), t + np.pi / 2])
+    drift = truth * [1, 1, 1.03] + np.outer(t, [0.05, 0.03, 0])
+    jitter = truth + np.random.default_rng(1).normal(0, [0.05, 0.05, 0.01], truth.shape)
+    for name, estimate in (("drift", drift), ("jitter", jitter)):
+        for steps in (1, 50):
+            ate, rpe = trajectory_errors(estimate, truth, steps)
+            print(
+                f"{name:>6}: ATE {100 * ate:4.1f} cm, RPE over {steps:2} steps {100 * rpe:4.1f} cm"
+            )
 
 
 # %% [markdown]
-# Only the last run is lost. It strays, returns for some readings, and strays again. It has been lost since its
-# error crossed the limit for the last time.
+# The drift has the smaller RPE over one step and the larger one over many. So state over which distance an RPE is computed.
 
 # %% [markdown]
 # ## 3 · Confidence interval of a share

@@ -68,10 +68,9 @@ def compare(errors_a, errors_b, limit):
     found = bootstrap((d,), np.median, method="percentile", n_resamples=500, rng=np.random.default_rng(0))
     return found.confidence_interval
 
-# %% pasted: task 2 on both
+# %% pasted: the mean errors of both
 def compare(errors_a, errors_b, limit):
-    since = [[lost_since(e, limit) for e in errors] for errors in (errors_a, errors_b)]
-    return np.mean(since, axis=1)
+    return np.mean(errors_a), np.mean(errors_b)
 
 # %% right: order statistics found by walking up
 def compare(errors_a, errors_b, limit):
