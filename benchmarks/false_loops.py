@@ -97,9 +97,9 @@ def results(graph, methods, kinds, counts, seeds):
         for count in counts:
             for seed in range(seeds):
                 rng = np.random.default_rng([list(KINDS).index(kind), count, seed])
-                spoiled = with_false_loops(graph, kind, count, rng)
+                corrupted = with_false_loops(graph, kind, count, rng)
                 for method, solution in methods.items():
-                    poses, cpu, ambiguous = solution(spoiled)
+                    poses, cpu, ambiguous = solution(corrupted)
                     error = aligned_error(poses, clean.poses)
                     found = dict(error=error, solved=error <= allowed[method], cpu=cpu)
                     yield (

@@ -20,7 +20,7 @@ WIDE, FACTOR = 100.0, 0.25  # multiple of Φ that a search allows at first, chan
 # of each search: share of the robust edges that it begins with, share of the drift that explains
 # them, multiple of Φ that it allows at first [1]
 STARTS = (0.1, 1, WIDE), (0.5, 0, 1), (0.3, 1, WIDE), (0.05, 1, WIDE), (1, 0, 1e6)
-ROUNDS, STEPS, MORE_STEPS = 25, 2, 10  # of a search, and iterations of the optimiser in each
+STAGES, STEPS, MORE_STEPS = 25, 2, 10  # of a search, and iterations of the optimiser in each
 READMISSIONS = 8  # at most, of each search
 TESTED = 30  # accepted edges, of the largest χ², without which the cost is computed
 PRIOR_FREEDOM = 30.0  # degrees of freedom with which a scale of 1 enters its estimate [1]
@@ -151,7 +151,7 @@ def _opposite(problem, best, fixed, trusted, phi):
 def _search(problem, poses, trusted, chosen, factor, phi):
     """Search from the ``chosen`` edges, a mask (m,), with a multiple of Φ that is reduced to 1."""
     start, before, scale, settled = poses, ~chosen, 1.0, False
-    for _ in range(ROUNDS):
+    for _ in range(STAGES):
         accepted = trusted | chosen
         some = problem.select(accepted)
         poses, optimum = optimise(some, poses, STEPS, tolerance=1.0)
