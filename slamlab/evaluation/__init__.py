@@ -9,18 +9,16 @@ Read in this order:
 - ``wall_extraction_metrics``: recall and precision of line extraction
 """
 
-from slamlab._lazy import exports
+from slamlab.evaluation.consistency import Consistency, band, consistency, nees, nis
+from slamlab.evaluation.containment import inside, outside
+from slamlab.evaluation.correlation_matrix import correlation
+from slamlab.evaluation.pose_nees import pose_nees, twist
+from slamlab.evaluation.relations import Relations, RelationsError, load_relations, relations_error
+from slamlab.evaluation.trajectory_error import TrajectoryError, absolute_error, relative_error
+from slamlab.evaluation.trajectory_files import load_trajectory, save_tum
+from slamlab.evaluation.wall_extraction_metrics import precision_metres, recall_metres
 
-__all__ = exports(
-    __name__,
-    {
-        ".consistency": ["Consistency", "band", "consistency", "nees", "nis"],
-        ".containment": ["inside", "outside"],
-        ".correlation_matrix": ["correlation"],
-        ".pose_nees": ["pose_nees", "twist"],
-        ".relations": ["Relations", "RelationsError", "load_relations", "relations_error"],
-        ".trajectory_error": ["TrajectoryError", "absolute_error", "relative_error"],
-        ".trajectory_files": ["load_trajectory", "save_tum"],
-        ".wall_extraction_metrics": ["precision_metres", "recall_metres"],
-    },
-)
+__all__ = ["Consistency", "Relations", "RelationsError", "TrajectoryError", "absolute_error"]
+__all__ += ["band", "consistency", "correlation", "inside", "load_relations", "load_trajectory"]
+__all__ += ["nees", "nis", "outside", "pose_nees", "precision_metres", "recall_metres"]
+__all__ += ["relations_error", "relative_error", "save_tum", "twist"]

@@ -10,16 +10,12 @@ Read in this order:
 - ``submap``: several scans as one target
 """
 
-from slamlab._lazy import exports
+from slamlab.scanmatching.icp_point_to_line import point_to_line
+from slamlab.scanmatching.icp_point_to_point import point_to_point, rigid_fit
+from slamlab.scanmatching.match_result import Iteration, Match
+from slamlab.scanmatching.normals import normals
+from slamlab.scanmatching.preprocessing import PointCloud, preprocess
+from slamlab.scanmatching.scan_matcher import Alignment, match
 
-__all__ = exports(
-    __name__,
-    {
-        ".icp_point_to_line": ["point_to_line"],
-        ".icp_point_to_point": ["point_to_point", "rigid_fit"],
-        ".match_result": ["Iteration", "Match"],
-        ".normals": ["normals"],
-        ".preprocessing": ["PointCloud", "preprocess"],
-        ".scan_matcher": ["Alignment", "match"],
-    },
-)
+__all__ = ["Alignment", "Iteration", "Match", "PointCloud", "match", "normals"]
+__all__ += ["point_to_line", "point_to_point", "preprocess", "rigid_fit"]
