@@ -69,12 +69,12 @@ class Assembly:
         lines_fixed = [line for line, _ in fixed]
         nodes = self._numbers(lines_fixed, np.array([name for _, name in fixed], dtype=object))
         lines_of = dict(zip(nodes.tolist(), lines_fixed, strict=True))
-        graph = PoseGraph(self._poses(lines_of))
-        graph.landmarks = set(np.flatnonzero(self.landmark).tolist())
-        graph.fixed = set(nodes.tolist())
         rank = np.cumsum(~self.landmark)[self.pairs]  # among the poses
         between = (self.pairs[:, 0] != WORLD) & ~self.landmark[self.pairs[:, 1]]
         robust = robust_loops & between & (np.abs(rank[:, 0] - rank[:, 1]) != 1)
+        graph = PoseGraph(self._poses(lines_of, robust))
+        graph.landmarks = set(np.flatnonzero(self.landmark).tolist())
+        graph.fixed = set(nodes.tolist())
         columns = *self.pairs.T.tolist(), self.measured, self.information, robust.tolist()
         graph.edges = list(map(Edge, *columns))
         return graph
@@ -106,20 +106,21 @@ class Assembly:
             raise SourceError(f"{where}: the information is singular or negative; {remedy}")
         return lines, np.column_stack([i, j]), measured, information
 
-    def _poses(self, fixed):
+    def _poses(self, fixed, robust):
         """Return the poses (n, 3) of the nodes: from the file or, if missing, from the edges."""
         poses = np.zeros((len(self.ids), 3))
         for some in self.vertices:
             at = self._numbers(some.lines, some.ids[:, 0])
             poses[at, : some.kind.size] = some.numbers
         if False not in self.given and not self.landmark.all():
-            poses = self._initialised(fixed)
+            poses = self._initialised(fixed, robust)
         if True not in self.given:
             place_landmarks(poses, self.pairs, self.measured, self.landmark)
         return poses
 
-    def _initialised(self, fixed):
-        """Initialise the poses from the edges; each root is a fixed node or has a prior."""
+    def _initialised(self, fixed, robust):
+        """Initialise the poses from the edges, without the ``robust`` ones (m,) if the others
+        connect the same poses; each root is a fixed node or has a prior."""
         pairs, measured, information = self.pairs, self.measured, self.information
         priors, joined = pairs[:, 0] == WORLD, ~self.landmark[pairs[:, 1]]
         between = pairs[joined & ~priors]
@@ -143,5 +144,7 @@ class Assembly:
             anchored.add(whole[node])
             roots[group[node]] = node, np.zeros(3)
         used = joined & ~priors
-        edges = between, measured[used], information[used]
+        if (components(pairs[used & ~robust], len(self.ids))[:-1] == group).all():
+            used &= ~robust  # a false loop would bend the start
+        edges = pairs[used], measured[used], information[used]
         return initial_poses(len(self.ids), *edges, dict(roots.values()))

@@ -182,6 +182,15 @@ def test_robust_loops_follow_the_order_of_the_poses_among_landmarks(tmp_path):
     assert [edge.robust for edge in graph.edges] == [False] * 5 + [True] * 3 + [False]
 
 
+@pytest.mark.parametrize("joined", [True, False])
+def test_loops_that_may_be_false_do_not_bend_the_initial_poses(tmp_path, joined):
+    steps = "".join(f"EDGE_SE2 {k} {k + 1} 1 0 0 1 0 0 1 0 1\n" for k in (0, 1, 2) if joined or k)
+    loops = "EDGE_SE2 0 2 2 0 0 1 0 0 1 0 1\nEDGE_SE2 0 3 0 0 3 9 0 0 9 0 9\n"
+    (tmp_path / "graph").write_text(steps + loops)
+    x, y, _ = g2o.load(tmp_path / "graph", robust_loops=True).poses[3]
+    assert bool(np.hypot(x - 3, y) < 1e-6) == joined  # else a loop is needed, and all are used
+
+
 PUBLIC = {"intel": 45.00, "CSAIL": 40.55, "manhattan": 3549.04, "kitti_00": 98.32}
 
 
