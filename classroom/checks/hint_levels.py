@@ -1,5 +1,5 @@
-"""Hint levels: each call of ``hint`` shows the next level (scaffolding): a question about the
-mistake, a step on the way, and the sentence that names the mistake."""
+"""Hint levels: each call of ``hint`` shows the next level (scaffolding) of what ``run_task`` chose
+for a mistake: a question about it, a step on the way, and the sentence that names it."""
 
 import tomllib
 

@@ -1,4 +1,4 @@
-"""The mark (grade, final score) of a submission: autograded points, overrides, late penalty."""
+"""The mark (final grade, score) of a submission: autograded points, overrides, late penalty."""
 
 from dataclasses import dataclass, replace
 

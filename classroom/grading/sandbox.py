@@ -1,4 +1,4 @@
-"""Sandbox: resource limits, Landlock and seccomp, set in a worker before student code runs."""
+"""Sandbox: resource limits, Landlock, seccomp in a worker; ``worker_client`` has the timeouts."""
 
 import contextlib
 import ctypes

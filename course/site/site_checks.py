@@ -1,4 +1,4 @@
-"""Check a built site: dead links, files from other hosts, content hidden from students, size."""
+"""Check a built site: broken links, files from other hosts, content hidden from students, size."""
 
 import re
 from html.parser import HTMLParser
