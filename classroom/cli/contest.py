@@ -70,7 +70,7 @@ def _contest(arguments, scratch):
     if again and arguments.open:
         raise UsageError("--again is for a closed contest. Leave out --open")
     if arguments.open and arguments.code:
-        raise UsageError("--code is for a contest that closes. Leave out --open")
+        raise UsageError("--code cannot be used with --open. Leave out --open")
     if arguments.worlds is not None and arguments.worlds < 1:
         raise UsageError("--worlds must be at least 1")
     if again and arguments.worlds is not None:

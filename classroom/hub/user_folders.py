@@ -22,7 +22,7 @@ class UserFolderError(Exception):
 def opened_user_folder(users, student):
     """Open a student's home; yield its handle and the student's user id. Raises UserFolderError."""
     if "/" in student or student.startswith("."):
-        raise UserFolderError("this is not the name of a home")
+        raise UserFolderError("this is not the name of a home folder")
     with _opened(os.path.join(users, student), FOLDER) as home:
         yield home, os.fstat(home).st_uid
 

@@ -16,9 +16,9 @@ SOURCES = (
 ADJUSTMENTS = (
     ("lidar-yaw", "DEG", "Mounting angle of the lidar, counter-clockwise [deg] (default: 0)"),
     ("field-of-view", "DEG", "Field of view of the lidar [deg] (default: as in the source)"),
-    ("range-scale", "M", "Unit of the ranges, 0.001 for millimetres [m] (default: 1)"),
-    ("odometry-scale", "M", "Unit of the odometry's distances [m] (default: 1)"),
-    ("turn-scale", "RAD", "Unit of the odometry's turns, 0.0174533 for degrees [rad] (default: 1)"),
+    ("range-scale", "M", "Unit of the ranges [m], 0.001 for millimetres (default: 1)"),
+    ("odometry-scale", "M", "Unit of odometry distances [m] (default: 1)"),
+    ("turn-scale", "RAD", "Unit of odometry angles [rad], 0.0174533 for degrees (default: 1)"),
 )
 SEED = "Random seed of the simulation (default: 0)"
 FAILED, INTERRUPTED = 1, 130  # exit codes beside 0 and 2; 130 as of shells

@@ -27,7 +27,7 @@ def add_parser(subparsers):
     add("--firmware", metavar="X.Y", help="Firmware of the lidar (default: its model's)")
     add("--typical", metavar="MODE", type=int, help="Number of the recommended scan mode")
     add("--stopped", action="store_true", help="Keep the motor stopped until a command starts it")
-    add("--saturates", action="store_true", help="Saturate eMIR's counters instead of wrapping")
+    add("--saturates", action="store_true", help="Let eMIR's counters saturate, not wrap around")
     watchdog = "Time without commands after which eMIR stops [s] (default: never)"
     add("--watchdog", metavar="S", type=float, help=watchdog)
     fault = "Fault to inject from the start, such as 'flip lidar 0.0001'; repeatable"

@@ -78,7 +78,7 @@ def _report(found, chi2, rejected):
     print(f"χ² after optimisation: {chi2:.6g} ({state}, iterations: {found.iterations})")
     if rejected:
         pairs = ", ".join(f"{edge.i}-{edge.j}" for edge in rejected[:SHOWN])
-        print(f"rejected loops: {len(rejected)}: {pairs}{' …' * (len(rejected) > SHOWN)}")
+        print(f"rejected loops ({len(rejected)}): {pairs}{' …' * (len(rejected) > SHOWN)}")
     if found.ambiguous:
         less, away = found.runner_up
         print(

@@ -35,7 +35,7 @@ def add_parser(subparsers):
     add_estimator_options(parser)
     add = parser.add_argument_group("what is printed").add_argument
     add("--json", action="store_true", help="Print the summary as JSON; messages go to stderr")
-    add("-q", "--quiet", action="store_true", help="Print only warnings, errors and --json")
+    add("-q", "--quiet", action="store_true", help="Print only warnings, errors and JSON")
     add("-v", "--verbose", action="store_true", help="Also print parameters, counts and timing")
     parser.set_defaults(run=run)
 

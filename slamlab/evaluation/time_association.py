@@ -45,7 +45,9 @@ def associated(first, second, tolerance, names):
     ``names`` match or if they are not ascending."""
     first, second = np.asarray(first, dtype=float), np.asarray(second, dtype=float)
     if not len(first) or not len(second):
-        raise ValueError(f"{names[0]} has {len(first)} poses and {names[1]} {len(second)}")
+        raise ValueError(
+            f"no pose pairs: {names[0]} has {len(first)} poses and {names[1]} {len(second)}"
+        )
     if np.array_equal(first, second):
         return associate(first, second)
     for name, times in zip(names, (first, second), strict=True):

@@ -104,8 +104,9 @@ def _parse_line(path, word, line, text):
     kind, words = KINDS[word], [each for each in text.split() if each != word]
     if len(words) != kind.ids + kind.numbers:
         raise SourceError(
-            f"{path}, line {line}: {word} has {kind.ids} id{'s'[: kind.ids - 1]} and "
-            f"{kind.numbers} numbers, but this line has {len(words)} of {kind.ids + kind.numbers}"
+            f"{path}, line {line}: {word} needs {kind.ids} id{'s'[: kind.ids - 1]} and "
+            f"{kind.numbers} numbers, but this line has {len(words)} values, not "
+            f"{kind.ids + kind.numbers}"
         )
     ids, numbers = words[: kind.ids], words[kind.ids :]
     return [_id(path, line, each) for each in ids], [_number(path, line, each) for each in numbers]

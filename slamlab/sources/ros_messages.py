@@ -113,7 +113,7 @@ def _check_scans(path, messages, read_scan):
         raise SourceError(f"{path} is damaged: {what}")
     if not read_scan.returns:
         what = f"no range of the {count} scans of {messages.topic} is between range_min and"
-        raise SourceError(f"{path}: {what} range_max. Check them, and whether the lidar measures")
+        raise SourceError(f"{path}: {what} range_max. Check these limits and the lidar")
 
 
 def _parts(kind, received, message, read_scan):

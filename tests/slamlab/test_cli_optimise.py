@@ -59,7 +59,7 @@ def test_the_optimum_its_covariances_and_a_picture_are_written(tmp_path, written
 def test_false_loops_are_rejected_named_and_left_out_of_the_new_file(tmp_path, written, capsys):
     out = str(tmp_path / "out.g2o")
     assert main(["optimise", written(false=2), "--robust", "--out", out]) == 0
-    assert "rejected loops: 2: 0-12, 1-13\n" in capsys.readouterr().out
+    assert "rejected loops (2): 0-12, 1-13\n" in capsys.readouterr().out
     clean = ring(np.random.default_rng(1))
     clean.optimise()
     assert len(g2o.load(out).edges) == len(clean.edges)

@@ -30,7 +30,7 @@ class Worksheet:
         for line, row in rows:
             number = re.search(r"(\d+)\s*$", row[IDENTIFIER])
             if number is None:
-                raise RosterError(f"{file}, line {line}: {row[IDENTIFIER]!r} has no number")
+                raise RosterError(f"{file}, line {line}: {row[IDENTIFIER]!r} must end in a number")
             self.rows[number[1]] = row
             if row.get(SUBMITTED, "").strip() not in ("", "-") and not self.handed_in(number[1]):
                 raise RosterError(
