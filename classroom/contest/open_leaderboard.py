@@ -19,7 +19,7 @@ BOOTSTRAP_SEED = 0  # fixed, so that the result is reproducible
 
 
 def is_significant_gain(shown, points):
-    """Whether a new version is significantly better, by at least one step.
+    """Whether a new version is better, both significantly and by at least STEP points.
 
     shown, points : points (families, worlds) of the shown version and of the new version."""
     if scores(np.asarray(points)) - scores(np.asarray(shown)) < STEP:

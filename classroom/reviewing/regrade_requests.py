@@ -12,8 +12,8 @@ from classroom.reviewing.regrade_request_file import RegradeRequestError, reques
 
 
 def take_regrade_requests(state, place):
-    """Record the requests in a CSV file or notebooks and return messages; raise RegradeRequestError
-    if the file is invalid."""
+    """Read requests from a CSV file or notebooks, record them in the ledger, and return messages;
+    raise RegradeRequestError if the file is invalid."""
     if place.is_dir() or archives.is_archive(place):
         asked, messages = requests_in_notebooks(state.term, place)
     else:

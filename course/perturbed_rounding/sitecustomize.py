@@ -1,8 +1,8 @@
 """Numpy as another processor computes it: every fourth last bit differs.
 
 Put this folder first on PYTHONPATH. Processors differ in the last bit of sines, angles and
-products; what hangs on that bit differs from machine to machine. OTHER_PROCESSOR=2 and so on are
-further processors.
+products; results that depend on that bit differ from machine to machine. OTHER_PROCESSOR=2 and so
+on emulate further processors.
 """
 
 import os

@@ -35,7 +35,7 @@ def cut_off(d_r, d_abs, r=2.0, n=4000):
 
 
 def one_bad_range(seed, times):
-    """Localise in a known map with one range that is too long by exactly ``times`` its bound.
+    """Localise in a known map with one range that is too long by ``times`` times its bound.
 
     Returns the number of steps until the filter reports an empty intersection (or None), and the
     number of steps in which the truth was outside the filter's box.

@@ -42,7 +42,7 @@ def load(path):
     """Load an OccupancyGrid from its YAML file; free and occupied cells get the clamp's values.
 
     The modes are those of the map_server. ``trinary`` compares the mean of all channels, including
-    alpha, with the thresholds. ``scale``: the mean of the colours, linear between thresholds;
+    alpha, with the thresholds. ``scale`` interpolates the colours' mean between the thresholds;
     transparent pixels are unknown. ``raw``: pixels are per cent; values above 100 are unknown.
     """
     path = Path(path)

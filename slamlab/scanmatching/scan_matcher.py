@@ -62,7 +62,7 @@ class Alignment(Match):
 
     @cached_property
     def observability(self) -> Observability:
-        """Observability relative to the centroids of clouds far from the origin."""
+        """Observability; relative to the centroids if the clouds are far from the origin."""
         return observability(*self._solution)[0]
 
 

@@ -13,7 +13,7 @@ def explore(draw, alt, play=None, **controls):
     """Show a figure with sliders, dropdowns and check boxes that redraw it (interactive figure).
 
     A running animation stops. An error after the first drawing is shown in place of the figure.
-    Raises ValueError if a control has another type, or ``play`` does not name a slider.
+    Raises ValueError if the type of a control is unsupported, or ``play`` does not name a slider.
 
     Parameters
     ----------

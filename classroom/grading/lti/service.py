@@ -1,6 +1,6 @@
 """HTTP client of an LMS's services: an access token for a signed assertion, and bounded requests.
 The token is sent only to the origin in the course file, even if a response contains other URLs.
-Redirections are not followed.
+Redirects are not followed.
 """
 
 import json

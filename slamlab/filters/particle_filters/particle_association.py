@@ -34,7 +34,8 @@ def associate(z, R, seen, probability=0.99, new=0.9999):
     """Associate greedily with the landmark of least vᵀ (S + R)⁻¹ v, χ² (2 degrees of freedom).
 
     probability : that a true pair passes the validation gate; new : the same for the wider gate,
-    outside which an observation belongs to a new landmark. Returns pairs and rows of new landmarks.
+    outside which an observation belongs to a new landmark. Returns the pairs {row of z: landmark}
+    and the rows of z for new landmarks.
     """
     m, N = len(z), len(seen.z)
     if not N:

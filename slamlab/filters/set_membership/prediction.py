@@ -15,7 +15,7 @@ from slamlab.filters.set_membership.intervals import (
 
 
 def predict_box(robot, heading, distance, direction, turn):
-    """Predict the robot's box and heading after a motion, with tightest bounds. Equation (10.3).
+    """Predict the tightest box and heading of the robot after a motion. Equation (10.3).
 
     x' = x + w cos(θ + δ),  y' = y + w sin(θ + δ),  θ' = θ + τ
     """
