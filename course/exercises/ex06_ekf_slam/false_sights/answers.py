@@ -115,7 +115,7 @@ def careful_step(x, P, ids, u, seen, z, C, R):
 
 # %% wrong: P always of one size
 def careful_step(x, P, ids, u, seen, z, C, R):
-    P = last if ids else P
+    P = careful_step.last if ids else P
     x, P = predict(x, P, u, C)
     for i, one in zip(seen, z):
         if i not in ids:
@@ -127,7 +127,7 @@ def careful_step(x, P, ids, u, seen, z, C, R):
         H = H_full(x, j)
         if v @ np.linalg.solve(H @ P @ H.T + R, v) < 13.8:
             x, P = update(x, P, one, j, R)
-    globals()["last"] = P
+    careful_step.last = P
     return x, np.diag([0.1, 0.1, 0.03, *[0.1] * (len(x) - 3)]) ** 2, ids
 
 # %% wrong: half of R
