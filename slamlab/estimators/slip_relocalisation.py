@@ -1,4 +1,4 @@
-"""Relocalisation after wheel slip, by a particle filter around the pose of the EKF.
+"""Relocalisation after wheel slip, by a particle filter (likelihood field) around the EKF's pose.
 
 If the particles, but not the EKF, explain all scans by the old map, the old map is restored and the
 robot is moved to the particles.
