@@ -1,7 +1,7 @@
 """Relocalisation after wheel slip, by a particle filter (likelihood field) around the EKF's pose.
 
 If the particles, but not the EKF, explain all scans by the old map, the old map is restored and the
-robot is moved to the particles.
+pose is set to the mean of the particles.
 """
 
 from copy import deepcopy
@@ -71,7 +71,7 @@ class SlipRelocalisation:
         return ["the wheels may have slipped: the scans fit the map better from a nearby pose"]
 
     def _relocalise(self, found):
-        """Restore the map and move the robot to the particles' mean: P_rr ← A P_rr Aᵀ + P of the
+        """Restore the map and set the pose to the particles' mean: P_rr ← A P_rr Aᵀ + P of the
         particles, P_ri ← A P_ri."""
         slam = self.slam
         slam.filter, slam.extents, slam.tentative, slam.points = self._before
