@@ -114,8 +114,11 @@ def careful_step(x, P, ids, u, seen, z, C, R):
     return x, P, ids
 
 # %% wrong: P always of one size
+last = [None]
+
+
 def careful_step(x, P, ids, u, seen, z, C, R):
-    P = careful_step.last if ids else P
+    P = last[0] if ids else P
     x, P = predict(x, P, u, C)
     for i, one in zip(seen, z):
         if i not in ids:
@@ -127,7 +130,7 @@ def careful_step(x, P, ids, u, seen, z, C, R):
         H = H_full(x, j)
         if v @ np.linalg.solve(H @ P @ H.T + R, v) < 13.8:
             x, P = update(x, P, one, j, R)
-    careful_step.last = P
+    last[0] = P
     return x, np.diag([0.1, 0.1, 0.03, *[0.1] * (len(x) - 3)]) ** 2, ids
 
 # %% wrong: half of R
