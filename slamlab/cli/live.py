@@ -98,7 +98,11 @@ async def _serve(arguments, live_run, console_server):
 
     def started(address):
         print(f"open {address}")
-        print("Type 0.5, 30 to drive (metres, degrees), an empty line to stop, or exit", flush=True)
+        if arguments.no_open:
+            print("The run starts when you open the page, or when you type run")
+        drive = "0.5, 30 to drive (metres, degrees), an empty line to stop"
+        words = f"{drive}, or exit" if live_run.drivable else "pause, run, reset or exit"
+        print(f"Type {words}", flush=True)
         if not arguments.no_open:
             open_page(address)
         console_server.read_terminal(panel, asyncio.get_running_loop())

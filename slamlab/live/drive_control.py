@@ -88,7 +88,9 @@ class DriveControl:
     def _start_move(self, distance, angle):
         loop = self._loop
         if not loop.pair.drivable:
-            raise ValueError("this source is a recording: there is no robot to drive")
+            raise ValueError(
+                "this source is a recording or a lidar alone: there is no robot to drive"
+            )
         if not loop.pair.played:
             raise ValueError(
                 f"you can drive after the last of {len(loop.pair.source)} recorded readings"

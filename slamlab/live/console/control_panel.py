@@ -15,7 +15,7 @@ TERMINAL = "the terminal"
 SPEEDS = (1, 2, 5, 10, 20, 50, 100)  # [steps/s]
 SIZE = 860, 560  # of the picture [CSS pixels]
 STOPPED = "the robot stops"
-NOT_DRIVABLE = "this source is a recording: there is no robot to drive"
+NOT_DRIVABLE = "this source is a recording or a lidar alone: there is no robot to drive"
 
 
 class ControlPanel:
