@@ -83,6 +83,7 @@ CELLS = '''# %% [markdown]
 #
 # Complete `{name}`: …
 
+
 # %% name="{id}-code"
 def {name}(step):
     """The length of a step [x, y, θ] (m, m, rad) in m."""
@@ -134,8 +135,9 @@ def begin(exercise, name):
         folder.joinpath(file).write_text(text.format(**words), "utf-8")
     _edit(home / "calls.py", r"\n}\n\Z", f'\n    "{id}": FunctionCall(("{function}",)),\n}}\n')
     _edit(home / "exercise.py", r"tasks=\(([^)]*?),?\)", rf"tasks=(\1, {words['constant']})")
-    new = f"from course.exercises.{home.name}.{function}.task import {words['constant']}\n"
-    _edit(home / "exercise.py", r"\nEXERCISE =", f"{new}\nEXERCISE =")
+    _import(
+        home / "exercise.py", f"course.exercises.{home.name}.{function}.task", words["constant"]
+    )
     notebook = home / "notebook.py"
     before, last, after = notebook.read_text("utf-8").rpartition(LAST)
     notebook.write_text(before + CELLS.format(**words) + last + after, "utf-8")
@@ -148,3 +150,11 @@ def _edit(file, pattern, new):
     if not count:
         raise ValueError(f"{file}: there is no place for the task: {pattern!r} is not found")
     file.write_text(text, "utf-8")
+
+
+def _import(file, module, name):
+    """Add an import below the last import of the block that precedes it in the alphabet."""
+    lines = file.read_text("utf-8").splitlines(keepends=True)
+    before = [k for k, line in enumerate(lines) if line[:5] == "from " and line[5:] < module]
+    lines.insert(before[-1] + 1 if before else 0, f"from {module} import {name}\n")
+    file.write_text("".join(lines), "utf-8")

@@ -50,6 +50,15 @@ def test_a_task_that_was_begun_runs_and_nothing_is_wrong_with_it(copy):
     assert "01-length-of-a-step: 'np.sqrt(step[0], step[1])' occurs 0 times" in wrong.stderr
 
 
+def test_a_task_that_was_begun_follows_the_style(copy):
+    assert run(copy, "new", "16", "a-gate").returncode == 0
+    folder = next((copy / "course" / "exercises").glob("ex16_*"))
+    for check in (["check"], ["format", "--check"]):
+        ruff = [sys.executable, "-m", "ruff", *check, "--config", ROOT / "pyproject.toml", folder]
+        done = subprocess.run(ruff, cwd=copy, capture_output=True, text=True)
+        assert done.returncode == 0, done.stdout + done.stderr
+
+
 @pytest.mark.parametrize("arguments", [("try", "01-none"), ("new", "99", "gate"), ("try", "none")])
 def test_an_unknown_exercise_or_task_is_reported(arguments):
     done = run(ROOT, *arguments)
