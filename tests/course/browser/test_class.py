@@ -7,7 +7,7 @@ from tests.timeouts import PATIENCE
 
 pytestmark = pytest.mark.slow
 
-QUESTION, OUTCOME, SECOND = "6", "7", "9"  # cells of lesson 00
+QUESTION, OUTCOME, SECOND = "8", "9", "11"  # cells of lesson 00
 
 
 @pytest.fixture

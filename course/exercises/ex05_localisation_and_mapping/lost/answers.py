@@ -308,7 +308,7 @@ def find_yourself(x, P, drives, ids, zs, landmarks, C, R):
             best, most = (xs, Ps), agreed
     return best
 
-# %% wrong: median of nine, wide start, wide gate
+# %% passes: median of nine, wide start, wide gate (on few other draws)
 def run(x, P, drives, ids, zs, landmarks, C, R, gate):
     xs, Ps = [], []
     for u, id, z in zip(drives, ids, zs):
