@@ -9,6 +9,7 @@ from tests.slamlab.views.outputs import Displays
 @pytest.fixture
 def stored(monkeypatch):
     """What the cells of a notebook store."""
+    pytest.importorskip("IPython")
     from slamlab.views import sliders  # late: it needs the widgets of a notebook
 
     return Displays(monkeypatch, sliders)
