@@ -18,7 +18,7 @@ def test_a_port_out_of_range_is_refused(port, capsys):
     ("source", "words"),
     [("sim:room", "0.5, 30 to drive"), ("sim:flat-carried", "pause, run, reset or exit")],
 )
-def test_without_a_page_the_command_says_how_the_run_starts_and_what_can_be_typed(source, words):
+def test_without_a_page_the_command_states_how_the_run_starts_and_what_can_be_typed(source, words):
     pytest.importorskip("tornado")  # slamlab live serves a page
     live = [sys.executable, "-m", "slamlab", "live", source, "--no-open"]
     done = subprocess.run(live, input="run\nexit\n", capture_output=True, text=True)
