@@ -14,6 +14,7 @@ MAX_MOVE = 100.0, 3600.0  # of a typed move [m, degree]
 GAIN = 1.5  # of the proportional controller: speed for each remaining metre [1/s]
 MIN_SPEED_SHARE = 0.1  # fraction of the top speed near the goal
 GOAL_TOLERANCE = 0.01, np.radians(1)  # a goal counts as reached within this [m, rad]
+NOT_DRIVABLE = "this source is a recording or a lidar alone: there is no robot to drive"
 STOP = 0.0, 0.0  # command: speed, turn rate [m/s, rad/s]
 
 
@@ -88,9 +89,7 @@ class DriveControl:
     def _start_move(self, distance, angle):
         loop = self._loop
         if not loop.pair.drivable:
-            raise ValueError(
-                "this source is a recording or a lidar alone: there is no robot to drive"
-            )
+            raise ValueError(NOT_DRIVABLE)
         if not loop.pair.played:
             raise ValueError(
                 f"you can drive after the last of {len(loop.pair.source)} recorded readings"

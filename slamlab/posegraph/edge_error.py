@@ -23,3 +23,8 @@ def information(z, covariance):
     T[..., 2, 2] = 1
     turned = T.swapaxes(-1, -2) @ np.linalg.inv(np.asarray(covariance, dtype=float)) @ T
     return (turned + turned.swapaxes(-1, -2)) / 2
+
+
+def squared_distances(e, covariance):
+    """Squared Mahalanobis distances (c,) of residuals e (c, 3), given covariances (c, 3, 3)."""
+    return np.einsum("ca,ca->c", e, np.linalg.solve(covariance, e[..., None])[..., 0])

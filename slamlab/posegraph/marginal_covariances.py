@@ -36,7 +36,7 @@ def squared_mahalanobis(problem, poses, pairs, measured, R):
     index = index.reshape(-1, 2)
     P = blocks[index[:, :, None], index[:, None, :]].transpose(0, 1, 3, 2, 4).reshape(-1, 6, 6)
     v, S = edge_error.error(*at), J @ P @ J.transpose(0, 2, 1) + R
-    return np.einsum("ca,ca->c", v, np.linalg.solve(S, v[..., None])[..., 0])
+    return edge_error.squared_distances(v, S)
 
 
 def leave_one_out(problem, poses, edges):
@@ -50,7 +50,7 @@ def leave_one_out(problem, poses, edges):
     k = len(columns), len(edges), 3
     P = np.einsum("kca,kcb->cab", columns.reshape(k), solved.reshape(k))
     v, S = edge_error.error(*at), spanning_tree.covariances(problem.information[edges]) - P
-    return np.einsum("ca,ca->c", v, np.linalg.solve(S, v[..., None])[..., 0])
+    return edge_error.squared_distances(v, S)
 
 
 def _factorised(problem, poses):

@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from slamlab.posegraph.edge_error import squared_distances
 from slamlab.posegraph.marginal_covariances import leave_one_out
 from slamlab.posegraph.optimisation import optimise
 from slamlab.posegraph.spanning_tree import SpanningTree, covariances
@@ -197,8 +198,3 @@ def _scale(problem, poses, accepted):
     chi2 = problem.errors(poses)[1][accepted].sum()
     reduced = (chi2 + PRIOR_FREEDOM) / (_freedom(problem, accepted) + PRIOR_FREEDOM)
     return min(1.0, SAFETY * reduced)
-
-
-def squared_distances(e, covariance):
-    """Squared Mahalanobis distances (c,) of residuals e (c, 3), given covariances (c, 3, 3)."""
-    return np.einsum("ca,ca->c", e, np.linalg.solve(covariance, e[..., None])[..., 0])

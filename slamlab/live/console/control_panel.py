@@ -4,7 +4,7 @@ import asyncio
 
 from slamlab.live.console.drive_lock import DriveLock
 from slamlab.live.console.page_screens import PageScreens
-from slamlab.live.drive_control import COMMANDS, parse_command
+from slamlab.live.drive_control import COMMANDS, NOT_DRIVABLE, parse_command
 from slamlab.live.run_loop import RunLoop
 from slamlab.live.run_scene import still_picture
 from slamlab.views.figure_display import png
@@ -15,7 +15,6 @@ TERMINAL = "the terminal"
 SPEEDS = (1, 2, 5, 10, 20, 50, 100)  # [steps/s]
 SIZE = 860, 560  # of the picture [CSS pixels]
 STOPPED = "the robot stops"
-NOT_DRIVABLE = "this source is a recording or a lidar alone: there is no robot to drive"
 
 
 class ControlPanel:
