@@ -5,6 +5,7 @@ for it, which takes minutes; the variable SLAMLAB_HUB names an installation to u
 
 import contextlib
 import os
+import pwd
 import re
 import shutil
 import socket
@@ -28,6 +29,7 @@ from tests.timeouts import PATIENCE, until
 
 GUIDE = (ROOT / "docs" / "server.md").read_text("utf-8")
 INSTALLED = "/opt/slam-course"  # in the guide
+ADMIN = pwd.getpwuid(0).pw_dir
 # commands of the guide that cannot run here, and why
 NOT_RUN = {
     "apt-get": "these packages are part of the machine",
@@ -109,17 +111,17 @@ class Machine:
         python = Path(sys.base_prefix)
         command = ["bwrap", "--die-with-parent", "--unshare-pid", "--cap-add", "ALL"]
         command += ["--ro-bind", "/", "/", "--dev-bind", "/dev", "/dev", "--proc", "/proc"]
-        command += ["--tmpfs", "/root", "--tmpfs", "/tmp", "--tmpfs", "/var/lib"]
+        command += ["--tmpfs", ADMIN, "--tmpfs", "/tmp", "--tmpfs", "/var/lib"]
         command += ["--bind", self._etc, "/etc", "--bind", self.home, "/home"]
         for path in (python, self.installation):  # all may enter the folders around them
             for folder in reversed(path.parents[:-1]):
                 command += ["--perms", "0755", "--dir", folder]
             command += ["--ro-bind", path, path]
-        command += ["--bind", self._students, "/root/students.txt", "--chdir", "/root"]
+        command += ["--bind", self._students, f"{ADMIN}/students.txt", "--chdir", ADMIN]
         script = script.replace(INSTALLED, str(self.installation))
         return subprocess.Popen(
             [*command, "sh", "-ec", script],
-            env={"PATH": os.environ["PATH"], "HOME": "/root", **variables},
+            env={"PATH": os.environ["PATH"], "HOME": ADMIN, **variables},
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,
