@@ -1,4 +1,4 @@
-"""Begin a task: a folder with its three files, and its place in the exercise."""
+"""Scaffold a new task: a folder with its three files, and its place in the exercise."""
 
 import keyword
 import re

@@ -1,4 +1,4 @@
-"""Detect functions that use a library module which solves the exercise.
+"""Forbidden imports: detect functions that use a library module which solves the exercise.
 
 The worker does not contain these modules, so a check must not award points for using them."""
 

@@ -1,7 +1,8 @@
 """Watchdog process (dead man's switch) that owns a port and stops the device.
 
 The process sends the stop command when the client program ends, is killed, or has sent nothing
-for the watchdog timeout. The command stops a robot or the motor of a lidar.
+for the watchdog timeout. The command stops a robot or the motor of a lidar. The command watchdog
+of eMIR is in ``emir.session``.
 """
 
 import contextlib

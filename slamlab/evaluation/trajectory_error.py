@@ -30,8 +30,9 @@ class TrajectoryError:
 
 def absolute_error(estimate, truth, tolerance=TOLERANCE):
     """Compute the absolute trajectory error (ATE, APE) of poses associated by time, with the first
-    poses aligned: e_i = (x*_0⁻¹ x*_i)⁻¹ (x_0⁻¹ x_i). Returns a TrajectoryError. Raises ValueError
-    if the times do not match, with the reason: unit, epoch, offset, not ascending.
+    poses aligned (not by least squares, Umeyama): e_i = (x*_0⁻¹ x*_i)⁻¹ (x_0⁻¹ x_i). Returns a
+    TrajectoryError. Raises ValueError if the times do not match, with the reason: unit, epoch,
+    offset, not ascending.
 
     Parameters
     ----------

@@ -1,4 +1,5 @@
-"""Linear Kalman filter (Bayes filter of a linear Gaussian system): prediction and correction."""
+"""Linear Kalman filter (Bayes filter of a linear Gaussian system): prediction, and correction with
+the Cholesky factor of the innovation covariance."""
 
 from dataclasses import dataclass
 from functools import cached_property

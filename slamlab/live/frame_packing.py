@@ -1,4 +1,4 @@
-"""Frame packing (serialisation): layers as a JSON header and float32 bytes."""
+"""Frame packing (binary serialisation): layers as a JSON header and float32 bytes."""
 
 from dataclasses import dataclass, field
 from functools import cached_property

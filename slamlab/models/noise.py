@@ -1,4 +1,5 @@
-"""Noise covariances: control C, process noise Q (covariance propagation), measurement noise R."""
+"""Noise covariances: control C (odometry noise), process noise Q (covariance propagation),
+measurement noise R."""
 
 import numpy as np
 

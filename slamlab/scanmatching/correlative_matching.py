@@ -1,4 +1,5 @@
-"""Correlative scan matching: all rotations and translations on a coarse grid, by FFT."""
+"""Correlative scan matching: all rotations and translations on one coarse grid, by FFT (no
+multi-resolution search)."""
 
 import numpy as np
 from scipy import fft

@@ -1,4 +1,5 @@
-"""Pose interpolation: poses of a moving frame, from odometry or tf, at the times of scans."""
+"""Pose interpolation: poses of a moving frame, from odometry or tf, at the times of scans. It
+replaces the approximate time synchronisation of two topics."""
 
 import numpy as np
 
