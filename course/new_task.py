@@ -110,7 +110,7 @@ def begin(exercise, name):
     Parameters
     ----------
     exercise : str, number such as "06"
-    name : str, such as "gate" or "false-sights"
+    name : str, such as "gate" or "wall-gate"
 
     Returns
     -------
@@ -122,7 +122,7 @@ def begin(exercise, name):
     """
     if not re.fullmatch(r"[a-z][a-z0-9]*(-[a-z0-9]+)*", name) or keyword.iskeyword(name):
         raise InvalidTask(
-            f"{name!r} is no name of a task: write small letters, such as false-sights"
+            f"{name!r} is not a valid task name: use lower-case letters, such as wall-gate"
         )
     id, folder = f"{exercise}-{name}", folder_of(f"{exercise}-{name}")
     if folder.exists():

@@ -83,8 +83,8 @@ def ask(id, text=None, choices=None, right=None, *, tolerance=None, unit="", rea
 def answers(ids):
     """Return the right answers to questions of the course, with their reasons, for the lecturer.
 
-    ids : list of str such as "04-leaning". Returns a dict, id to text, without questions that are
-    stored nowhere.
+    ids : list of str such as "04-leaning". Returns a dict that maps ids to texts, without the
+    questions that are stored nowhere.
     """
     from classroom.checks import question_files, question_widgets
 

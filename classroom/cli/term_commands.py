@@ -46,7 +46,7 @@ def add_parser(subparsers):
     release = add_command(subparsers, "grade release", description, "04", "04 --as 'Prof. X'")
     release.add_argument("exercise", metavar="ID", help="Exercise, such as 04")
     release.add_argument("--course", metavar="FILE", type=Path, help=COURSE)
-    help = "Folder of the homes of a JupyterHub, to write each student's feedback there, too"
+    help = "Folder of a JupyterHub's homes: also write each student's feedback there"
     release.add_argument("--homes", metavar="DIR", type=Path, dest="users", help=help)
     add_who_option(release)
     release.set_defaults(run=run, verb="release", out=None, db=None, policy=None)

@@ -61,10 +61,10 @@ def _sweep(inputs, outputs):
     return (inputs, NONE) if refused else _cut("rays")(inputs, outputs)
 
 
-def _ring(inputs, outputs):
+def _relaxed(inputs, outputs):
     if not outputs:
         return inputs, {}
-    return inputs, {"result": outputs["box"]} if outputs["left"] else NONE
+    return inputs, {k: outputs[k] for k in ("box", "outliers")} if outputs["left"] else NONE
 
 
 STEPS = (
@@ -81,7 +81,8 @@ PRESENTATIONS = {
         "np.random.default_rng([seed, 1]). It is given"
     ),
     "05-alternate": CasePresentation(
-        returned="it returns xs, Ps and a dict; the p and P (here L) in the dict, by ascending ids:"
+        returned="it returns xs, Ps and a dict. The dict contains these p and P (here L), in the order "
+        "of the ids:"
     ),
     "08-associate": CasePresentation(returned="it returns (−1 stands for None)"),
     "08-pillar": CasePresentation(
@@ -97,7 +98,7 @@ PRESENTATIONS = {
         "after each call, for each id that occurs in any scan, in ascending order: whether the id "
         "is in the book, its remaining lives and its `sightings`, and how often it is in used:",
     ),
-    "10-ring": CasePresentation(shown=_ring),
+    "10-relaxed": CasePresentation(shown=_relaxed),
     "11-weigh": CasePresentation(shown=_logarithms),
     "11-draw": CasePresentation(
         "draw is called with rng = np.random.default_rng(seed) and",

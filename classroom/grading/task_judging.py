@@ -25,8 +25,8 @@ def answer_of(client, recorder, task, call, sets, references):
 
 
 def judge_task(task, seed: bytes, answer, references=(), unredacted=False):
-    """Return the Verdict on a task. ``answer(task, call, sets, references)`` must return a worker's
-    or stored answers, or raise StudentError. ``references`` replace functions of earlier tasks.
+    """Return the Verdict on a task. ``answer(task, call, sets, references)`` must return answers,
+    of a worker or stored, or raise StudentError. ``references`` replace functions of earlier tasks.
     """
 
     def answered(call, seed):

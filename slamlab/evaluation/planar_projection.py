@@ -27,8 +27,8 @@ def orientation_faults(got):
 
 
 def planar_in_other_order(got, shift):
-    """Whether the poses leave the plane, but do not with w at the other end of the quaternions:
-    ``shift`` is −1 if w was read as the last component, 1 if it was read as the first."""
+    """Whether the poses leave the plane only because w was read at the wrong end of the
+    quaternions: ``shift`` is −1 if w was read as the last component, 1 if as the first."""
     given = _quaternions(got)
     tilts = [_tilt(_rotations(q), 2).mean() for q in (given, np.roll(given, shift, axis=1))]
     return tilts[0] > TURNED > tilts[1]
@@ -65,7 +65,8 @@ def project(rotations, positions):
 
 
 def _are_of_a_camera(rotations, positions):
-    """Whether a camera's y axis is vertical, by the rotations or, if none rotates, by the path."""
+    """Whether the y axis, like a camera's, is vertical: the rotations show it or, if there is no
+    rotation, the path."""
     up, down = _tilt(rotations, 2).mean(), _tilt(rotations, 1).mean()
     if max(up, down) > TURNED:
         return down < up / 2

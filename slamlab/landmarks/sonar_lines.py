@@ -28,7 +28,8 @@ def slant(beta, alpha, half_cone):
 
 
 def sonar_lines(scan, sensor, min_slant=MIN_SLANT):
-    """Return Lines, best supported first; inliers must cover slants u of ``min_slant`` [rad]."""
+    """Return the Lines of a scan, best supported first. The slants u of a line's inliers must cover
+    at least ``min_slant`` [rad]."""
     beams = usable_beams(scan)
     if not len(beams):
         return []

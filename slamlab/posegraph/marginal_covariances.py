@@ -40,8 +40,8 @@ def squared_mahalanobis(problem, poses, pairs, measured, R):
 
 
 def leave_one_out(problem, poses, edges):
-    """Decrease (c,) of the least χ² if each of some edges (c,), numbers, is left out:
-    eᵀ(Λ⁻¹ − J H⁻¹ Jᵀ)⁻¹e, at the optimum, poses (n, 3)."""
+    """Return how much the least χ² decreases (c,) if one edge is left out, for each edge number in
+    ``edges`` (c,): eᵀ(Λ⁻¹ − J H⁻¹ Jᵀ)⁻¹e, at the optimum, poses (n, 3)."""
     ends = np.vstack([poses, np.zeros(3)])[problem.pairs[edges].T]
     at = *ends, problem.measured[edges]
     J = np.concatenate([J_i(*at), J_j(*at)], axis=-1)

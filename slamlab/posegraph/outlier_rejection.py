@@ -42,12 +42,12 @@ class Search(NamedTuple):
     freedom: int
 
     def cost(self, phi, scale):
-        """Compute −2 log likelihood but for a constant, given the scale of χ²."""
+        """Compute −2 log likelihood up to a constant, given the scale of χ²."""
         chi2 = self.chi2[self.accepted].sum() / scale + self.freedom * np.log(scale)
         return float(chi2 + phi * np.count_nonzero(~self.accepted))
 
     def distance(self, other):
-        """Squared distance of another result, in χ² of the edges that this one accepts."""
+        """Squared distance to another result: the increase in χ² of the edges accepted here."""
         return float((other.chi2 - self.chi2)[self.accepted].sum()) / self.scale
 
 
@@ -120,7 +120,7 @@ def _searches(problem, poses, fixed, trusted, phi):
 
 
 def _distances(problem, poses, fixed, trusted=None):
-    """Squared Mahalanobis distances (m,) of all edges, given the drift along ``trusted`` ones."""
+    """Squared Mahalanobis distances (m,) of all edges, given the drift along ``trusted`` edges."""
     covariance = covariances(problem.information)
     if trusted is not None:
         tree = SpanningTree(poses, fixed, problem.pairs, problem.information, ~trusted)

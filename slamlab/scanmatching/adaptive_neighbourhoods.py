@@ -64,8 +64,9 @@ def principal_axes(s_xx, s_yy, s_xy):
 
 
 def neighbourhoods_above_noise(tree, points, lines, count, largest=np.inf):
-    """Return GridNeighbourhoods whose line fits are longer than the noise is wide; None if
-    ``count`` nearest neighbours suffice, by the principal axes of ``lines``, or if no size does."""
+    """Return GridNeighbourhoods so large that their line fits are longer than the noise is wide.
+    Return None if ``count`` nearest neighbours suffice, which the principal axes of ``lines`` show,
+    or if no size suffices."""
     usual = _roundness(lines)
     if not (usual < STRAIGHT or usual > NOISY) or len(points) < 2 * count:
         return None

@@ -130,7 +130,7 @@ def scatter(fits):
 
 def fit_cloud_lines(points):
     """Return the LineFits of points (n, 2) and their nearest neighbours, the noise σ across the
-    lines, and the median distance to the second next point [m]."""
+    lines, and the median distance to the second nearest point [m]."""
     tree, k = cKDTree(points), min(CLOUD_NEIGHBOURS, len(points))
     distances, indices = tree.query(points, k=k)
     spacing = max(median(distances[:, 2]), 1e-9)

@@ -20,7 +20,7 @@ MIN_AGREEMENT = 0.8  # least share of inliers among inliers and contradictions [
 @dataclass(frozen=True)
 class MatchQuality:
     """``inliers`` (n,) of the source; ``overlap``: the inliers' share of the source; ``agreement``:
-    the inliers' share of inliers and contradictions (points in the other scan's free space)."""
+    the share of inliers among inliers and contradictions (points in the other's free space)."""
 
     inliers: np.ndarray
     overlap: float

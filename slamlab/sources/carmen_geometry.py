@@ -76,7 +76,7 @@ class LaserGeometry:
         return bool(self._param("laser_{}_flipped"))
 
     def lengths(self, lengths, gfs):
-        """Return the usable beam counts among those (n,) of scans without a field of view."""
+        """Return the usable beam counts, given those (n,) of the scans without a field of view."""
         counts, times = np.unique(lengths, return_counts=True)
         usual = int(counts[np.argmax(times)])
         for count in counts.tolist():

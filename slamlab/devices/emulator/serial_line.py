@@ -41,7 +41,7 @@ class BaudRateMismatch:
 
 
 def with_baud_rate(device, baud):
-    """Return the device or, if the baud rates differ, a BaudRateMismatch; ``baud`` None: TCP."""
+    """Return the device or, if the baud rates differ, a BaudRateMismatch; TCP has ``baud`` None."""
     own = getattr(device, "baud", None)
     return device if None in (own, baud) or own == baud else BaudRateMismatch(device)
 

@@ -16,7 +16,8 @@ def absolute_bearing(heading, z, bounds):
 
 
 def edges(z, bounds, direction, d_abs, origin):
-    """Return edges far, near, left, right of positions at r ± dr, direction ± d_abs from a box."""
+    """Return the edges far, near, left, right of the positions that are at range r ± dr and
+    direction ± d_abs from some point of a box."""
     r, dr = z[0], bounds[0]
     if d_abs >= pi / 2:  # edges of a sector would exclude feasible positions: use only the range
         return tuple(offset_edge(a, b, r + dr, origin) for a, b in SIDE_NORMALS)

@@ -102,7 +102,7 @@ class AccessControl:
         return client
 
     def address(self, request):
-        """Return a client's address, which a proxy states; nothing but rates depends on it."""
+        """Return a client's address, which a proxy may state; only rate limits depend on it."""
         stated = request.headers.get(CLIENT, "") if self.public.netloc else ""
         return stated or request.remote_ip
 
