@@ -81,8 +81,8 @@ PRESENTATIONS = {
         "np.random.default_rng([seed, 1]). It is given"
     ),
     "05-alternate": CasePresentation(
-        returned="it returns xs, Ps and a dict. The dict contains these p and P (here L), in the order "
-        "of the ids:"
+        returned="it returns xs, Ps and a dict. The dict contains these p and P (here L), in the "
+        "order of the ids:"
     ),
     "08-associate": CasePresentation(returned="it returns (−1 stands for None)"),
     "08-pillar": CasePresentation(
