@@ -15,6 +15,7 @@ from slamlab.cli.common import FAILED, printable
 from slamlab.cli.parsers import UsageError, add_command
 
 MAX_LINES = 60  # of a list that is printed; a file contains all of them
+MAX_NAMES = 10  # of submissions in a line
 
 
 def add_parser(subparsers):
@@ -110,11 +111,14 @@ def _verify(arguments, book, term):
     wrong += [f"{p.record.submission} ({p.record.exercise}): {p.wrong}" for p in scores if p.wrong]
     _list([f"wrong: {line}" for line in wrong])
     for kind, name in (("lacks", "needs the version"), ("unverified", "not verified")):
-        count = {}
+        of_reason = {}
         for score in scores:
-            reason = getattr(score, kind)
-            count[reason] = count.get(reason, 0) + 1
-        _list([f"{name}: {n} × {reason}" for reason, n in count.items() if reason])
+            if reason := getattr(score, kind):
+                record = score.record
+                of_reason.setdefault(reason, []).append(f"{record.submission} ({record.exercise})")
+        for reason, which in of_reason.items():
+            more = f", … and {len(which) - MAX_NAMES} more" if which[MAX_NAMES:] else ""
+            print(printable(f"{name}: {', '.join(which[:MAX_NAMES])}{more}: {reason}"))
     for chain, (last, head) in chain_merging.heads(rows).items():
         print(f"ledger {chain}: rows 0 to {last}, head {head}")
     verified = sum(score.verified for score in scores)

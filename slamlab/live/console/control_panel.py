@@ -15,6 +15,7 @@ TERMINAL = "the terminal"
 SPEEDS = (1, 2, 5, 10, 20, 50, 100)  # [steps/s]
 SIZE = 860, 560  # of the picture [CSS pixels]
 STOPPED = "the robot stops"
+MESSAGES = {"run": "the run goes on", "step": "one step"}
 
 
 class ControlPanel:
@@ -62,7 +63,7 @@ class ControlPanel:
             raise ValueError(f"there is no button {name[:20]!r}")
         if self.lock.holder not in (None, who):
             self.lock.acquire(who)  # raises LockTaken
-        return self._buttons[name]() or ""
+        return self._buttons[name]() or MESSAGES[name]
 
     @property
     def _buttons(self):

@@ -2,6 +2,7 @@
 
 import dataclasses
 import json
+import re
 
 import numpy as np
 import pytest
@@ -242,6 +243,8 @@ def test_rejudging_writes_only_when_it_is_accepted(tmp_path, monkeypatch, capsys
     assert "3 attempts judged again, 0 of them by running the code: 1 gain points, 2 " in output
     assert "Nothing was written" in output
     assert state() == before
+    assert main(["grade", "verify", *words]) == 0
+    assert re.search(r"needs the version: .*\blazy\.ipynb \(99\).*: ", capsys.readouterr().out)
     assert main(["grade", "rejudge", "--accept", *words, "--as", "Prof. X"]) == 0
     after = state()
     assert after[1] == before[1] + 3

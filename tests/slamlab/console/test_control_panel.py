@@ -59,6 +59,13 @@ async def test_the_robot_makes_a_typed_move():
     at.panel.loop.pause()
 
 
+async def test_every_word_typed_in_the_terminal_is_answered():
+    at = At()
+    assert at.panel.execute("terminal", "step") == "one step"
+    assert at.panel.execute("terminal", "run") == "the run goes on"
+    at.panel.loop.pause()
+
+
 async def test_while_one_client_has_the_control_another_may_only_stop():
     at = At(speed=100)
     at.panel.press("one", "forward")
