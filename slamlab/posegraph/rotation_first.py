@@ -39,7 +39,7 @@ def place_landmarks(poses, pairs, measured, landmark):
 def _solve(pairs, factors, steps, logs, x, free):
     """Minimise Σ w²|x_j − a x_i − b|² over the free entries of complex numbers x (n,), given log w.
 
-    A guess needs no weight below a millionth of the largest; with these, H stays regular.
+    Weights are at least a millionth of the largest, so that the problem is not singular.
     """
     if not free.any():
         return x

@@ -1,0 +1,114 @@
+"""One search for the edges of a pose graph that are not outliers, and its likelihood."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from slamlab.posegraph.edge_error import squared_distances
+from slamlab.posegraph.marginal_covariances import leave_one_out
+from slamlab.posegraph.optimisation import optimise
+from slamlab.posegraph.spanning_tree import SpanningTree, covariances
+
+WIDE, FACTOR = 100.0, 0.25  # multiple of Φ that a search allows at first, change per round [1]
+STAGES, STEPS, MORE_STEPS = 25, 2, 10  # of a search, and iterations of the optimiser in each
+READMISSIONS = 8  # at most, of each search
+TESTED = 30  # accepted edges, of the largest χ², without which the cost is computed
+PRIOR_FREEDOM = 30.0  # degrees of freedom with which a scale of 1 enters its estimate [1]
+SAFETY = 3.0  # of the estimated scale, since noise is seldom Gaussian [1]
+VIOLATED = 3.0  # a trusted edge above so many Φ starts a search, an edge that costs more ends [1]
+
+
+class Search(NamedTuple):
+    """Result of one search: poses (n, 3), the mask (m,) of the accepted edges, χ² (m,) of all
+    edges, the scale of χ², and the degrees of freedom of the accepted edges."""
+
+    poses: np.ndarray
+    accepted: np.ndarray
+    chi2: np.ndarray
+    scale: float
+    freedom: int
+
+    def cost(self, phi, scale):
+        """Compute −2 log likelihood up to a constant, given the scale of χ²."""
+        chi2 = self.chi2[self.accepted].sum() / scale + self.freedom * np.log(scale)
+        return float(chi2 + phi * np.count_nonzero(~self.accepted))
+
+    def distance(self, other):
+        """Squared distance to another result: the increase in χ² of the edges accepted here."""
+        return float((other.chi2 - self.chi2)[self.accepted].sum()) / self.scale
+
+
+def search(problem, poses, trusted, chosen, factor, phi):
+    """Search from the ``chosen`` edges, a mask (m,), with a multiple of Φ that is reduced to 1."""
+    start, before, scale, settled = poses, ~chosen, 1.0, False
+    for _ in range(STAGES):
+        accepted = trusted | chosen
+        some = problem.select(accepted)
+        poses, optimum = optimise(some, poses, STEPS, tolerance=1.0)
+        if not optimum.converged and (chosen == before).all():  # bent by edges rejected since
+            poses, optimum = optimise(some, start, MORE_STEPS, tolerance=1.0)
+        chi2, new = problem.errors(poses)[1], estimated_scale(problem, poses, accepted)
+        factor = max(1.0, FACTOR * factor)
+        before, scale = chosen, min(scale, new)  # a false loop does not make room for others
+        if not settled:
+            chosen = (chi2 <= phi * scale * factor) & ~trusted
+            settled = factor == 1 and optimum.converged and (chosen == before).all()
+        if settled:
+            limit = acceptable_chi2(phi, new)
+            chosen = before | ((chi2 <= limit) & ~trusted)
+            if optimum.converged and (chosen == before).all():
+                numbers, most = np.flatnonzero(accepted), VIOLATED * limit
+                costly = costliest_edges(some, poses, numbers, trusted, chi2, most)
+                if not len(costly):
+                    break
+                chosen[costly] = False
+    return Search(poses, accepted, chi2, new, _freedom(problem, accepted))
+
+
+def costliest_edges(some, poses, numbers, trusted, chi2, limit):
+    """Return the accepted edges without which χ² decreases by more than ``limit``. Return only
+    the costliest of them, because these edges also increase the χ² of the others."""
+    tested = np.flatnonzero(~trusted[numbers])
+    tested = tested[np.argsort(-chi2[numbers[tested]])[:TESTED]]
+    saved = leave_one_out(some, poses, tested)
+    return numbers[tested[saved > max(limit, saved.max(initial=0) / 2)]]
+
+
+def acceptable_chi2(phi, scale):
+    """Return the χ² of an edge whose acceptance and rejection cost the same."""
+    return scale * (phi - 3 * np.log(scale))
+
+
+def _freedom(problem, accepted):
+    return 3 * np.count_nonzero(accepted) - np.count_nonzero(problem.free)
+
+
+def estimated_scale(problem, poses, accepted):
+    """Estimate the scale of χ² from accepted edges, at most 1 (reduced χ²)."""
+    chi2 = problem.errors(poses)[1][accepted].sum()
+    reduced = (chi2 + PRIOR_FREEDOM) / (_freedom(problem, accepted) + PRIOR_FREEDOM)
+    return min(1.0, SAFETY * reduced)
+
+
+def with_readmitted(problem, found, fixed, trusted, phi):
+    """Readmit the edges that the drift along the accepted edges explains, as long as the cost
+    decreases."""
+    for _ in range(READMISSIONS):
+        d2 = drift_distances(problem, found.poses, fixed, found.accepted)
+        chosen = (found.accepted | (d2 <= phi)) & ~trusted
+        if (chosen <= found.accepted).all():
+            break
+        more = search(problem, found.poses, trusted, chosen, WIDE, phi)
+        if more.cost(phi, found.scale) >= found.cost(phi, found.scale):
+            break
+        found = more
+    return found
+
+
+def drift_distances(problem, poses, fixed, trusted=None):
+    """Squared Mahalanobis distances (m,) of all edges, given the drift along ``trusted`` edges."""
+    covariance = covariances(problem.information)
+    if trusted is not None:
+        tree = SpanningTree(poses, fixed, problem.pairs, problem.information, ~trusted)
+        covariance += tree.drift(problem.pairs)
+    return squared_distances(problem.errors(poses)[0], covariance)
