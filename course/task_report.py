@@ -75,7 +75,7 @@ def lacking(exercise_id) -> list[str]:
 
 
 def is_misjudged(one: Programs, answer, verdict) -> bool:
-    """Whether an independent answer that is right loses points, or another keeps or loses all.
+    """Whether a right independent answer loses points, or a wrong one has an unexpected verdict.
 
     In the open last task of an exercise, a right answer may use a method that is not the best.
     """

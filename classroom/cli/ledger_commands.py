@@ -147,7 +147,7 @@ def _forget(arguments, book, term):
     print(f"Attempts whose name and content are deleted: {len(gone)}; their hashes remain.")
     for id in sorted({record.exercise for record in gone} - {None}) if term else ():
         if (arguments.out / id / "release").is_dir():
-            print(f"Release {id} again, because it names the student: slamlab grade release {id}")
+            print(f"The last release of {id} names the student: run slamlab grade release {id}")
     if term and arguments.student in term.roster.students:
         print(f"Delete the student's line in {term.course.roster.name}.")
     print("Also delete the downloaded submissions and any copies of this gradebook.")

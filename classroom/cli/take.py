@@ -89,9 +89,9 @@ def _student(name, term):
 
 
 def _submission(file, content, student, exercise, book, term):
-    """Return the Submission and how its time is known: it is that of an attempt with the same
-    content by the student or by nobody in the roster or, if there is none, of the student's last
-    attempt at the exercise.
+    """Return the Submission, and a text that states how its time is known. The time is that of an
+    attempt with the same content, unless another student of the roster made it. If there is none,
+    the time is that of the student's last attempt at the exercise.
     """
     from classroom.grading.submissions import Submission
 

@@ -39,7 +39,7 @@ class Table:
     questions: tuple[str, ...]  # about each quantity, or ""
 
     def explain(self, label, programs):
-        """Return the mistake with a label, by which these programs (n,) bool explain an answer."""
+        """Return the mistake with a label, if the programs in the mask (n,) explain an answer."""
         hit = set(self.where[programs & (self.labels == label)].tolist())
         place, question = "", ""
         if len({self.places[k] for k in hit}) == 1:

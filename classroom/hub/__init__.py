@@ -2,7 +2,7 @@
 
 - ``student_server``: ``python -m classroom.hub.student_server`` starts a student's Jupyter server
 - ``phones``: server extension through which phones reach the user's audience server
-- ``user_folders``: reading and writing files in the homes of students, who may set traps
+- ``user_folders``: safe reading and writing of files in the homes of students
 - ``exchange``: collecting submissions and returning feedback
 - ``jupyterhub_config``: configuration of a hub on one machine; ``proxy``: its HTTP proxy
 """

@@ -1,6 +1,6 @@
 """Configuration of a JupyterHub on one machine: see docs/server.md.
 
-The variable SLAM_HUB is the public address of the hub, SLAM_HUB_BIND where it listens."""
+The variable SLAM_HUB is the hub's public address; the hub listens at the address SLAM_HUB_BIND."""
 
 import os
 import sys

@@ -1,7 +1,8 @@
 """``python -m classroom.hub.student_server``: a student's Jupyter server on a JupyterHub.
 
-The course is installed for all, read-only. In the home of the student are only the notebooks; each
-start of the server updates those that the installation changed, and keeps the student's answers."""
+The course is installed once for all students, read-only. A student's home contains only the
+notebooks. Each start of the server updates the notebooks that have changed in the installation, and
+keeps the student's answers."""
 
 import os
 import sys

@@ -1,8 +1,8 @@
-"""Reading and writing files in the homes of students, who may set traps.
+"""Safe reading and writing of files in the homes of students, who may replace files by links.
 
-Each folder is opened by its handle, without following links, so that a student who exchanges a
-folder or a file for a link at any moment gains nothing: a grader with the rights to read all homes
-reads only regular files of the student, and writes only into folders of the student."""
+Each folder is opened by its handle, and links are not followed, even if a student creates them
+during the access. So a grader with the right to read all homes reads only regular files of the
+student, and writes only into folders of the student."""
 
 import os
 import secrets

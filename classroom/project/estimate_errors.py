@@ -35,7 +35,8 @@ def relative_errors(estimate, truth, metres, length):
 
 
 def walls_to_map(world):
-    """Sample the observed walls or landmarks, which a map should show, (m, 2), and all (k, 2)."""
+    """Return points (m, 2) on the observed walls or landmarks, which a map should show, and
+    points (k, 2) on all walls or landmarks."""
     if len(world.landmarks):
         seen = np.concatenate([reading.observations.ids for reading in world])
         return world.landmarks[np.unique(seen)], world.landmarks

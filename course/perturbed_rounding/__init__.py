@@ -1,4 +1,4 @@
-"""Another processor, as far as Python can play one: ``environment(2)`` is that of its processes."""
+"""Simulation of other processors: ``environment(2)`` starts a Python with another rounding."""
 
 import os
 from pathlib import Path
@@ -7,11 +7,11 @@ from course.source import ROOT
 
 
 def environment(number=1):
-    """The environment of a Python whose numpy rounds as some other processor might.
+    """Return environment variables for a Python whose numpy rounds like another processor.
 
     Parameters
     ----------
-    number : int, which one
+    number : int, which processor
 
     Returns
     -------

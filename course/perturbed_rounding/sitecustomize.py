@@ -1,4 +1,4 @@
-"""Numpy as another processor computes it: every fourth last bit differs.
+"""Perturbed rounding: numpy gets other last bits, as on another processor, in every fourth number.
 
 Put this folder first on PYTHONPATH. Processors differ in the last bit of sines, angles and
 products; results that depend on that bit differ from machine to machine. OTHER_PROCESSOR=2 and so
@@ -15,14 +15,14 @@ NAMES = ["sin", "cos", "tan", "exp", "log", "arctan2", "arctan", "arcsin", "arcc
 
 
 def nudged(found: np.ndarray) -> np.ndarray:
-    """The numbers (...), a quarter of them one bit nearer zero; 0 and ±1 stay exact."""
+    """Return numbers (...), a quarter of them one bit nearer to zero; 0 and ±1 stay exact."""
     bits = found.view(np.uint64) * ODD
     chosen = (bits >> np.uint64(62) == 0) & (found != 0) & (np.abs(found) != 1)
     return np.where(chosen & np.isfinite(found), np.nextafter(found, 0), found)
 
 
 class Nudged:
-    """A ufunc whose answers are nudged; its methods, as ``outer``, stay as they are."""
+    """A ufunc whose results are nudged; its methods, such as ``outer``, do not change."""
 
     def __init__(self, exact):
         self.exact = exact

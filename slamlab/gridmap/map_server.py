@@ -81,7 +81,7 @@ def _percent(level, white, settings):
 
 
 def _read_image(path, settings):
-    """Return the pixels' brightness, lowest row first, white's brightness, and an opaque mask."""
+    """Return the pixels' brightness (lowest row first), white's, and a mask of opaque pixels."""
     file = path.parent / settings.image
     where = f"{path}: its image {file}"
     if not file.is_file():

@@ -45,7 +45,7 @@ def _intersection(first, second):
 
 
 def _opening(p, *walls):
-    """Return the bisector [rad] of walls that meet at p, and whether p is convex seen from 0."""
+    """Return the bisector [rad] of walls that meet at p, and whether the corner is convex."""
     along = [line.ends.mean(axis=0) - p for line in walls]
     middle = np.sum([direction / np.hypot(*direction) for direction in along], axis=0)
     return float(np.arctan2(middle[1], middle[0])), bool(middle @ p > 0)

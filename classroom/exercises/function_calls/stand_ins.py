@@ -35,7 +35,7 @@ def _numbers(function, argument):
 
 
 def as_returned(values):
-    """Return one value alone and several as a tuple; a value without a dimension as a number."""
+    """Return one value itself, or several as a tuple; a value without dimensions is a number."""
     found = tuple(array if array.ndim else array[()] for array in map(np.asarray, values))
     return found if len(found) > 1 else found[0]
 

@@ -60,7 +60,7 @@ class Course:
         return LatePolicy(self.due, **self.late, extensions=both)
 
     def warnings(self, policy):
-        """List due dates that the clock does not show once, and extensions without effect."""
+        """List due dates that the clock skips or shows twice, and extensions without effect."""
         found = [clock_warning(when, f"due date of exercise {id}") for id, when in self.due.items()]
         for (student, id), when in policy.extensions.items():
             name, due = f"extension of {student} in exercise {id}", policy.due_for(id, student)

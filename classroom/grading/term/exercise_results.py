@@ -56,8 +56,9 @@ class ExerciseResult:
 
 
 def undecided(counted, others):
-    """Return a dict from each task, whose points were set by hand on another attempt and differ
-    from those of the attempt that counts, to a clause on both. ``others`` are sorted, oldest first.
+    """Return the undecided tasks, whose points were set by hand on another attempt and differ from
+    those of the attempt that counts. The dict maps each task to a clause that states both points.
+    ``others`` are sorted, oldest first.
     """
     by_hand, clauses = {}, {}
     for made in others:

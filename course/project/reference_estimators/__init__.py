@@ -1,4 +1,4 @@
-"""Three other good estimators, as students may submit them, which test the point scale."""
+"""Three other good estimators, such as students may submit; they test the point scale."""
 
 from course.project.reference_estimators.grid_particles import GridParticles
 from course.project.reference_estimators.scan_graph import ScanGraph
