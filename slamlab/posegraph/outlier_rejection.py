@@ -107,7 +107,8 @@ def _searches(problem, poses, fixed, trusted, phi):
 
 
 def _pruned(problem, found, fixed, trusted, phi):
-    """Reject edges that fit but bend the others, the costliest first, while this pays."""
+    """Reject edges that fit but bend the others, the costliest first, while this clearly decreases
+    the cost."""
     for _ in range(PRUNINGS):
         numbers, some = np.flatnonzero(found.accepted), problem.select(found.accepted)
         limit, chosen = acceptable_chi2(phi, found.scale), found.accepted & ~trusted
