@@ -65,8 +65,7 @@ def project(rotations, positions):
 
 
 def _are_of_a_camera(rotations, positions):
-    """Whether the y axis, like a camera's, is vertical: the rotations show it or, if there is no
-    rotation, the path."""
+    """Whether the y axis is vertical, like a camera's: by the rotations or else by the path."""
     up, down = _tilt(rotations, 2).mean(), _tilt(rotations, 1).mean()
     if max(up, down) > TURNED:
         return down < up / 2

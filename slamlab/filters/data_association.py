@@ -54,8 +54,7 @@ def gated_nearest_neighbours(d2, gate=13.8, new_landmark_gate=4 * 13.8):
 
 
 def nearest_neighbours(mak, z, R, probability=0.99):
-    """Return the id of the landmark nearest to each observation z (m, 2); None outside the χ² gate.
-    An id may occur several times."""
+    """Return the id of the landmark nearest to each of z (m, 2), or None outside the χ² gate."""
     if not 0 < probability < 1:
         raise ValueError(f"probability must be between 0 and 1, got {probability}")
     d2 = squared_distances(mak, z, R)

@@ -1,5 +1,4 @@
-"""Correlative scan matching: all rotations and translations on one coarse grid, by FFT (no
-multi-resolution search)."""
+"""Correlative scan matching by FFT, on one coarse grid in place of a multi-resolution search."""
 
 import numpy as np
 from scipy import fft

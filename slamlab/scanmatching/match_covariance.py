@@ -10,8 +10,7 @@ from slamlab.scanmatching.registration import information_floor, robust_kernel, 
 @dataclass(frozen=True)
 class Observability:
     """Eigenvalues (3,) [1/m²] and ``directions`` (eigenvectors) (3, 3) of the information matrix of
-    [x, y, θ reach]. A direction is degenerate if its eigenvalue is below ``floor``, such as the
-    direction along a corridor."""
+    [x, y, θ reach]. A direction is degenerate if its eigenvalue is below ``floor``."""
 
     eigenvalues: np.ndarray
     directions: np.ndarray
