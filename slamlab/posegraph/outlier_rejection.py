@@ -16,7 +16,6 @@ from slamlab.posegraph.optimisation import optimise
 from slamlab.posegraph.outlier_search import (
     MORE_STEPS,
     VIOLATED,
-    WIDE,
     acceptable_chi2,
     costliest_edges,
     drift_distances,
@@ -26,6 +25,7 @@ from slamlab.posegraph.outlier_search import (
 )
 from slamlab.posegraph.spanning_tree import SpanningTree
 
+WIDE = 100.0  # multiple of Φ that a search allows at first [1]
 # of each search: share of the robust edges that it begins with, share of the drift that explains
 # them, multiple of Φ that it allows at first [1]
 STARTS = (0.1, 1, WIDE), (0.5, 0, 1), (0.3, 1, WIDE), (0.05, 1, WIDE), (1, 0, 1e6)

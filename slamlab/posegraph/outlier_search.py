@@ -9,7 +9,7 @@ from slamlab.posegraph.marginal_covariances import leave_one_out
 from slamlab.posegraph.optimisation import optimise
 from slamlab.posegraph.spanning_tree import SpanningTree, covariances
 
-WIDE, FACTOR = 100.0, 0.25  # multiple of Φ that a search allows at first, change per round [1]
+FACTOR = 0.25  # by which the multiple of Φ that a search allows changes in each stage [1]
 STAGES, STEPS, MORE_STEPS = 25, 2, 10  # of a search, and iterations of the optimiser in each
 READMISSIONS = 8  # at most, of each search
 TESTED = 30  # accepted edges, of the largest χ², without which the cost is computed
@@ -98,7 +98,7 @@ def with_readmitted(problem, found, fixed, trusted, phi):
         chosen = (found.accepted | (d2 <= phi)) & ~trusted
         if (chosen <= found.accepted).all():
             break
-        more = search(problem, found.poses, trusted, chosen, WIDE, phi)
+        more = search(problem, found.poses, trusted, chosen, 1.0, phi)
         if more.cost(phi, found.scale) >= found.cost(phi, found.scale):
             break
         found = more
