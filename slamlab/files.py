@@ -22,6 +22,7 @@ BYTE_ORDER_MARKS = {
     codecs.BOM_UTF16_BE: "utf-16-be",
 }
 CHUNK, SLICE = 1 << 16, 512  # read, and decompressed, at a time [bytes]
+MAX_COMPRESSIONS = 3  # of a file, one within the other
 HEAD = 1 << 20  # for the detection of the format [bytes]
 MAX_LINE = 1 << 26  # longest line of text [bytes]
 
@@ -87,12 +88,16 @@ class InputFile:
 
     def _decompressed(self):
         chunks = self._read()
-        first = next(chunks, b"")
-        chunks = chain([first], chunks)
-        make = next((m for magic, m in DECOMPRESSORS.items() if first.startswith(magic)), None)
-        if make is None:
-            yield from chunks
-            return
+        for _ in range(MAX_COMPRESSIONS):
+            first = next(filter(None, chunks), b"")
+            chunks = chain([first], chunks)
+            make = next((m for magic, m in DECOMPRESSORS.items() if first.startswith(magic)), None)
+            if make is None:
+                break
+            chunks = self._inflated(chunks, make)
+        return chunks
+
+    def _inflated(self, chunks, make):
         decompressor = None
         for chunk in chunks:
             # small slices, so that a damaged block costs at most one slice
@@ -109,7 +114,7 @@ class InputFile:
                     part = decompressor.unused_data
                     if decompressor.eof:
                         decompressor = None
-        self.truncated = decompressor is not None
+        self.truncated = self.truncated or decompressor is not None
 
 
 def _decompress(decompressor, part):

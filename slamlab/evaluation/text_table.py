@@ -13,6 +13,7 @@ from slamlab.files import InputFile, SourceError
 COMMENTS = (b"#", b"%", b"//")
 SAMPLED = 50  # rows that determine the number of columns, and largest number of headers
 HEADER_LENGTH = 10_000  # part of a header that is read [bytes]
+MAX_QUOTED = 60  # part of a header that a message quotes [1]
 UNITS = {
     "ns": 1e-9, "us": 1e-6, "µs": 1e-6, "ms": 1e-3, "s": 1.0, "m": 1.0, "cm": 1e-2, "mm": 1e-3,
     "rad": 1.0, "deg": np.pi / 180, "°": np.pi / 180,
@@ -24,6 +25,7 @@ class Header:
     """A line above the rows that may name columns; ``factors`` to SI units (None: no unit)."""
 
     line: int
+    text: str
     names: list[str]
     factors: list[float | None]
     commented: bool
@@ -42,7 +44,8 @@ class TextTable:
         self.damage, self.where = Counter(), {}
         sample = list(islice(self._rows(InputFile(path), self.headers), SAMPLED))
         if not sample:
-            raise SourceError(f"{path} contains no {row}")
+            begin = "".join(f"; line {h.line} begins with {h.text!r}" for h in self.headers[:1])
+            raise SourceError(f"{path} contains no {row}{begin}")
         self.width = Counter(len(fields) for _, fields in sample).most_common(1)[0][0]
         self.start = _number(sample[0][1][0])
 
@@ -114,13 +117,13 @@ def named_columns(header, patterns):
 
 
 def _split(text):
-    """Split a row into fields. In a row with semicolons or tabs, a comma is a decimal sign."""
+    """Split a row into fields. If semicolons, tabs or blanks separate them, a comma is a decimal
+    sign."""
     text = text.replace(b'"', b"")
+    fields = [field.strip() for field in text.split(b",")]
     if b";" in text:
         fields = text.replace(b",", b".").split(b";")
-    elif b"," in text and b"\t" not in text:
-        fields = text.split(b",")
-    else:
+    elif len(fields) == 1 or any(len(field.split()) > 1 for field in fields):
         fields = text.replace(b",", b".").split() or [b""]
     return fields[:-1] if len(fields) > 1 and not fields[-1].strip() else fields
 
@@ -140,12 +143,13 @@ def _is_number(field):
 
 
 def _header(number, text, commented):
+    shown = text[:MAX_QUOTED].decode("utf-8", "replace")
     text = text[:HEADER_LENGTH].decode("utf-8", "replace").lower().strip("#%/ \t")
     parts = re.split(r"[,;\t]", text)
     if len(parts) == 1:  # names are separated by blanks; each may have its unit in brackets
         parts = re.findall(r"[^\s\[(]+(?:\s*[\[(][^\])]*[\])])?", text)
     named = [_name(part) for part in parts]
-    return Header(number, [name for name, _ in named], [unit for _, unit in named], commented)
+    return Header(number, shown, [name for name, _ in named], [unit for _, unit in named], commented)
 
 
 def _name(part):

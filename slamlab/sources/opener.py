@@ -12,7 +12,7 @@ from slamlab.sources.public_datasets import resolve
 from slamlab.sources.reading_log import ReadingLog
 from slamlab.sources.rplidar_text import RplidarText
 from slamlab.sources.simulated_robot import simulation
-from slamlab.sources.unsupported_formats import describe
+from slamlab.sources.unsupported_formats import describe, is_binary
 
 SIMULATION_PREFIX = "sim:"  # of a simulated world's name
 EMULATED_PREFIX = "emulated:"  # of a world's name
@@ -78,7 +78,7 @@ def open(spec, rng=None, carried=False):
             content = b"".join(file)
             return RecordedDevices(spec, (content, file.truncated))
     for log in LOGS:
-        if log.recognises(head):
+        if log.recognises(head) and not is_binary(head):
             return log(spec, file)
     known = ", ".join(log.kind for log in LOGS)
     raise SourceError(

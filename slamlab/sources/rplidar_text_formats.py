@@ -42,34 +42,41 @@ class UnreadableLine(ValueError):
 class KeyValueFormat:
     """Format with keys: ``theta: 12.3 Dist: 456.0 Q: 47``, ``{'angle': 12.3, …}`` and others."""
 
-    POINT = re.compile(
-        rb"\b(?:theta|angle)['\"]?\s*[:=]\s*([-+\w.]+)"
-        rb"[^{}\r\n]*?\bdist(?:ance)?['\"]?\s*[:=]\s*([-+\d.]+)\s*([cm]?m\b)?",
-        re.IGNORECASE,
-    )
+    ANGLE = rb"\b(?:theta|angle)['\"]?\s*[:=]\s*(?P<angle>[-+\w.]+)"
+    DISTANCE = rb"\bdist(?:ance)?['\"]?\s*[:=]\s*(?P<distance>[-+\d.]+)\s*(?P<unit>[cm]?m\b)?"
+    ORDERS = [
+        re.compile(rb"[^{}\r\n]{0,200}?".join(order), re.IGNORECASE)
+        for order in ((ANGLE, DISTANCE), (DISTANCE, ANGLE))
+    ]
     PART = re.compile(rb"\{|theta|angle|dist|quality", re.IGNORECASE)  # of a truncated point
     MARK = re.compile(rb"\b(?:start\w*|new_scan)['\"]?\s*[:=]\s*(?:true|1)\b|\bS\s+theta", re.I)
 
     def __init__(self, head):
-        first = self.POINT.search(_without_types(head))
+        first = self._point(_without_types(head))
         # the SDK prints the points of a revolution by angle, with the mark at its first point
         self.by_angle = b"theta" in first[0]
-        unit = first[3].decode().lower() if first[3] else "mm" if self.by_angle else None
+        unit = first["unit"].decode().lower() if first["unit"] else "mm" if self.by_angle else None
         self.units = {"angle": "degree", "distance": unit}
         self.bounded = False
         self.marks, self.wraps = not self.by_angle and self.MARK.search(head) is not None, True
 
     @classmethod
     def recognises(cls, head):
-        return cls.POINT.search(_without_types(head)) is not None
+        return cls._point(_without_types(head)) is not None
+
+    @classmethod
+    def _point(cls, text):
+        """Find the first point in a text, with angle and distance in either order."""
+        found = (order.search(text) for order in cls.ORDERS)
+        return next(filter(None, found), None)
 
     def points(self, line):
         points, line = [], _without_types(line)
         for piece in line.split(b"}") if b"}" in line else (line,):
-            found = self.POINT.search(piece)
+            found = self._point(piece)
             if found is not None:
                 mark = self.MARK.search(piece) is not None
-                points.append((mark, _number(found[1]), _number(found[2]), np.nan))
+                points.append((mark, _number(found["angle"]), _number(found["distance"]), np.nan))
             elif self.PART.search(piece):
                 raise UnreadableLine
         return points

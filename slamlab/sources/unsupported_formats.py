@@ -25,6 +25,11 @@ def describe(head):
     return f"is text of an unknown format ({first}): {CONVERT}"
 
 
+def is_binary(head):
+    """Return whether a file has a binary format of the table, such as an archive with a log."""
+    return b"\0" in head[:1000] and _row("file", head) is not None
+
+
 def _row(place, text):
     """Return the format and the remedy of the first row whose pattern matches, or None."""
     for line in TABLE.read_text("utf-8").splitlines():

@@ -1,7 +1,6 @@
 """Trajectory files with damage: the row alone is lost and reported, or the file is refused."""
 
 import gzip
-import tracemalloc
 import warnings
 
 import numpy as np
@@ -34,7 +33,6 @@ from tests.slamlab.formats.trajectory_writing import (
     nanoseconds,
     read,
     table,
-    with_decimal_comma,
 )
 
 LINES = table(TUM).splitlines(keepends=True)
@@ -56,11 +54,6 @@ def test_one_damaged_row_costs_that_row_and_is_reported(tmp_path, line, message)
     found, text = read(tmp_path, "".join([*LINES[:10], line, *LINES[10:]]))
     assert_is_the_truth(found)
     assert "read as TUM: skipped " in text and message in text
-
-
-def test_where_most_of_the_trajectory_was_not_tracked_the_rest_is_read(tmp_path):
-    lost = "".join(f"{t} nan nan nan nan nan nan nan\n" for t in range(100, 300))
-    assert_is_the_truth(read(tmp_path, "".join([*LINES, lost]))[0])
 
 
 def test_a_compressed_file_that_is_cut_short_is_read_so_far(tmp_path):
@@ -98,9 +91,11 @@ UNREADABLE = {
     ),
     "no rotations": (kitti(scale=3.0), "KITTI: 0 usable poses; matrices that are not rotations"),
     "KITTI with a damaged row": (kitti() + "1 2 3\n", "not poses: 1 .first in line 41.*correct"),
-    "decimal commas between blanks": (table(TUM, number=with_decimal_comma), "in a row"),
     "values left out": (table([[""] * COUNT, *TUM], ","), "contains no pose"),
-    "text": ("a trajectory\nof nothing\n", "contains no pose: a row of TUM has 8"),
+    "text": (
+        "a trajectory\nof nothing\n",
+        "contains no pose: a row of TUM has 8.*; line 1 begins with 'a trajectory'",
+    ),
     "binary": (bytes(range(256)) * 40, "contains no pose"),
 }
 
@@ -147,17 +142,3 @@ def test_a_mutated_file_raises_nothing_but_a_source_error(tmp_path_factory, cont
     assert len(found.times) == len(found.poses) > 0
     assert np.isfinite(found.times).all() and (np.diff(found.times) > 0).all()
     assert np.isfinite(found.poses).all()
-
-
-def test_memory_is_bounded_by_a_multiple_of_the_file(tmp_path):
-    count = 20_000
-    rows = np.zeros((count, 8))
-    rows[:, 0], rows[:, 7] = np.arange(count), 1
-    path = tmp_path / "long"
-    path.write_text(table(rows.T))
-    tracemalloc.start()
-    try:
-        load_trajectory(path)
-        assert tracemalloc.get_traced_memory()[1] < 12 * path.stat().st_size + 4e6
-    finally:
-        tracemalloc.stop()

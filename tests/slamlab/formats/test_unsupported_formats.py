@@ -21,8 +21,10 @@ def archive(kind):
         with zipfile.ZipFile(buffer, "w") as packed:
             packed.writestr("drive.log", "FLASER 1 1.0")
     else:
+        member, content = tarfile.TarInfo("drive.log"), b"FLASER 1 1.0 0 0 0 0 0 0 1 host 1\n"
+        member.size = len(content)
         with tarfile.open(fileobj=buffer, mode=kind) as packed:
-            packed.addfile(tarfile.TarInfo("drive.log"))
+            packed.addfile(member, io.BytesIO(content))
     return buffer.getvalue()
 
 
@@ -82,6 +84,7 @@ UNKNOWN = {
     "NMEA": ("$GPGGA,123519,4807.038,N\n", "a GPS receiver"),
     "Python": ("import numpy\nprint(1)\n", "source code of a program"),
     "numbers": ("1.5 2.5 3.5\n" * 30, "a table of numbers without column names"),
+    "scan a row": ("1.5," + "2.5," * 360 + "3\n", "a table with a scan in each row"),
     "prose": ("The robot drove through the hall.\n" * 9, "text of an unknown format"),
 }
 

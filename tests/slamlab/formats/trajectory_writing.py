@@ -108,6 +108,7 @@ SEPARATED = {
     "tabs": table(TUM, "\t"),
     "commas": table(TUM, ","),
     "semicolons": table(TUM, ";"),
+    "decimal commas between blanks": table(TUM, number=with_decimal_comma),
     "decimal commas between semicolons": table(TUM, ";", number=with_decimal_comma),
     "a separator at the end": table(TUM, ",", end=",\n"),
     "a blank at the end": table(TUM, end=" \n"),
