@@ -69,15 +69,18 @@ def explanation(first, second, tolerance, names):
     """Find a unit or an offset by which most timestamps of ``names`` would match. Return it and a
     remedy in words, or "" if there is none."""
     fewest = min(len(first), len(second))
-    # the offset of two series is only known up to their period
-    bound = max(tolerance, np.median(np.diff(second)) / 2 if len(second) > 1 else 0.0)
-    best, most = None, max(MANY * fewest, 2 * len(associate(first, second, bound)))
-    for factor in (1.0, *FACTORS):
-        for offset in (0.0, second[0] - factor * first[0]):
+    half = max(tolerance, np.median(np.diff(second)) / 2 if len(second) > 1 else 0.0)
+    trials = [(a, b) for a in (1.0, *FACTORS) for b in (0.0, second[0] - a * first[0])]
+    for bound in (tolerance, half):  # the offset of regular series is only known up to their period
+        best, most = None, max(MANY * fewest, 2 * len(associate(first, second, bound)))
+        for factor, offset in trials:
             count = len(associate(factor * first + offset, second, bound))
-            if count > max(most, CHANCE[int(factor != 1) + int(offset != 0)]):
+            shifted = factor != 1 or abs(offset) >= 2 * half  # or stamps lie between others
+            if shifted and count > max(most, CHANCE[int(factor != 1) + int(offset != 0)]):
                 best, most = (factor, offset), count
-    return "" if best is None else _in_words(*best, names)
+        if best:
+            return _in_words(*best, names)
+    return ""
 
 
 def _in_words(factor, offset, names):
@@ -111,7 +114,8 @@ def _nearest(first, second, names):
     return (
         f"the nearest differ by {np.abs(first[i] - second[j]).min():.3g} s ({names[0]} is from "
         f"{first[0]:.9g} to {first[-1]:.9g} s, {names[1]} from {second[0]:.9g} to "
-        f"{second[-1]:.9g} s); if they belong to one run, use a larger tolerance"
+        f"{second[-1]:.9g} s); if they belong to one run, use a larger "
+        "tolerance, or if the clocks differ, add the difference to the times"
     )
 
 

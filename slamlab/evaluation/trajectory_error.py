@@ -65,6 +65,8 @@ def relative_error(estimate, truth, steps=1, tolerance=TOLERANCE):
 
 
 def _paired_poses(estimate, truth, tolerance):
+    if truth is None:
+        raise ValueError("there is no ground truth: use relations_error with trusted relations")
     names = "the estimate", "the truth"
     first, second = associated(estimate.times, truth.times, tolerance, names).T
     return estimate.poses[first], truth.poses[second]

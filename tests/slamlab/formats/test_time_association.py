@@ -120,7 +120,7 @@ REASONS = {
     "since 1970": (TIMES + EPOCH, "counts from 1970.*add -1403636579 s"),
     "nanoseconds since 1970": (1e9 * (TIMES + EPOCH), "nanoseconds.*; then .* counts from 1970"),
     "indices": (np.arange(COUNT), "the times of the estimate are its indices"),
-    "between the others": (TIMES + 0.05, "differ by 0.05 s .*larger tolerance"),
+    "between the others": (TIMES + 0.05, "differ by 0.05 s .*larger tolerance, or if the clocks"),
     "backwards": (TIMES[::-1].copy(), "are not ascending: 5.8 s of pose 1 comes after 5.9 s; sort"),
 }
 
@@ -134,6 +134,19 @@ def test_stamps_that_do_not_pair_are_explained(times, why, error):
     if "begins" not in why and "counts" not in why:
         with pytest.raises(ValueError, match=other):
             error(TRUTH, Trajectory(times, TRUTH.poses))
+
+
+@pytest.mark.parametrize("shift", [-31.7, 0.9, 3.2, 5.0])
+def test_another_clock_is_found_though_some_stamps_pair_by_chance(shift):
+    times = np.cumsum(np.random.default_rng(0).uniform(0.3, 0.5, 900))
+    assert len(associate(times + shift, times)) > 2
+    with pytest.raises(ValueError, match=f"if only the clocks differ, add {-shift:g} s"):
+        absolute_error(wandering(times + shift), wandering(times))
+
+
+def test_an_error_needs_a_ground_truth():
+    with pytest.raises(ValueError, match="there is no ground truth: use relations_error"):
+        absolute_error(TRUTH, None)
 
 
 @pytest.mark.parametrize("power", [3, 6, 9])
