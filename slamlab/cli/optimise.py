@@ -45,7 +45,7 @@ def run(arguments) -> int:
         rejected = [edge for k, edge in enumerate(graph.edges) if k in graph.dropped]
         graph.edges = [edge for k, edge in enumerate(graph.edges) if k not in graph.dropped]
         graph.dropped = set()
-        _report(found, graph.optimise(0, kernel=NO_KERNEL).chi2, rejected)
+        _report(found, graph.optimise(0, kernel=NO_KERNEL).chi2, rejected, arguments.robust)
         _write(arguments, graph, start, rejected)
     except (OSError, ValueError) as error:
         return refuse("optimise", error)
@@ -73,11 +73,11 @@ def _load(name, robust):
     return graph
 
 
-def _report(found, chi2, rejected):
+def _report(found, chi2, rejected, robust):
     state = "converged" if found.converged else "not converged"
     print(f"χ² after optimisation: {chi2:.6g} ({state}, iterations: {found.iterations})")
-    if rejected:
-        pairs = ", ".join(f"{edge.i}-{edge.j}" for edge in rejected[:SHOWN])
+    if robust:
+        pairs = ", ".join(f"{edge.i}-{edge.j}" for edge in rejected[:SHOWN]) or "none"
         print(f"rejected loops ({len(rejected)}): {pairs}{' …' * (len(rejected) > SHOWN)}")
     if found.ambiguous:
         less, away = found.runner_up

@@ -64,6 +64,8 @@ def test_false_loops_are_rejected_named_and_left_out_of_the_new_file(tmp_path, w
     clean.optimise()
     assert len(g2o.load(out).edges) == len(clean.edges)
     np.testing.assert_allclose(g2o.load(out).poses, clean.poses, atol=1e-3)
+    assert main(["optimise", out, "--robust"]) == 0
+    assert "rejected loops (0): none\n" in capsys.readouterr().out
 
 
 def test_a_graph_is_read_from_stdin_and_refused_by_this_name(monkeypatch, written, capsys):
