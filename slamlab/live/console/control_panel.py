@@ -45,7 +45,7 @@ class ControlPanel:
         self.lock.acquire(who)
         if parsed == "exit":
             self.ended.set()
-            return "ended: the robot stops"
+            return "ended"
         message = self.control.execute(text)
         self._renewed()
         return message

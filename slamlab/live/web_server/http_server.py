@@ -33,7 +33,7 @@ HUB = "JUPYTERHUB_PUBLIC_URL"  # variable with the public address of the user's 
 CLIENT = "X-Real-IP"  # header in which a proxy states its client's address
 ERRORS = {
     400: "The request cannot be read.",
-    403: "Access denied: the address or the code is wrong.",
+    403: "Access denied: the code or address is wrong, or the request is not from this page.",
     404: "This page does not exist.",
     429: "Too many requests: wait a moment.",
     503: "The server is full.",
