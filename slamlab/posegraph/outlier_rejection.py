@@ -30,7 +30,7 @@ WIDE = 100.0  # multiple of Φ that a search allows at first [1]
 # them, multiple of Φ that it allows at first [1]
 STARTS = (0.1, 1, WIDE), (0.5, 0, 1), (0.3, 1, WIDE), (0.05, 1, WIDE), (1, 0, 1e6)
 PRUNINGS = 8  # at most, of the best result
-SAME = 100.0  # squared distance of two results that agree [1]
+SAME, SAME_MAP = 100.0, 0.1  # squared distance [1] and rms distance [m] of results that agree
 AMBIGUOUS = 3.0  # largest difference of the costs of two ambiguous results, in Φ [1]
 
 
@@ -55,9 +55,9 @@ def reject_outliers(problem, poses, fixed, dropped, phi, settings):
     (best, *others), costs = _ranked(results, phi)
     found, optimum = optimise(problem.select(best.accepted), best.poses, *settings)
     for other, cost in zip(others, costs[1:], strict=True):
-        if min(best.distance(other), other.distance(best)) >= SAME:
-            away = np.hypot(*(other.poses - found)[:, :2].T)
-            runner_up = cost - costs[0], float(np.sqrt(np.mean(away**2)))
+        away = float(np.sqrt(2 * np.mean((other.poses - found)[:, :2] ** 2)))
+        if best.distance(other) >= SAME and away >= SAME_MAP:
+            runner_up = cost - costs[0], away
             ambiguous = runner_up[0] < AMBIGUOUS * phi
             optimum = replace(optimum, runner_up=runner_up, ambiguous=ambiguous)
             break
