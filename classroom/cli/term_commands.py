@@ -1,5 +1,6 @@
 """``slamlab grade init`` and ``release``: begin a term, and release the results of an exercise."""
 
+import argparse
 import hashlib
 import os
 from pathlib import Path
@@ -46,10 +47,11 @@ def add_parser(subparsers):
     release = add_command(subparsers, "grade release", description, "04", "04 --as 'Prof. X'")
     release.add_argument("exercise", metavar="ID", help="Exercise, such as 04")
     release.add_argument("--course", metavar="FILE", type=Path, help=COURSE)
+    release.add_argument("--out", help=argparse.SUPPRESS)  # is refused with the remedy
     help = "Folder of a JupyterHub's homes: also write each student's feedback there"
     release.add_argument("--homes", metavar="DIR", type=Path, dest="users", help=help)
     add_who_option(release)
-    release.set_defaults(run=run, verb="release", out=None, db=None, policy=None)
+    release.set_defaults(run=run, verb="release", db=None, policy=None)
 
 
 def run(arguments) -> int:
@@ -92,8 +94,11 @@ def _release(arguments):
     from classroom.grading.term import course_file, releases
     from classroom.grading.term.term import undecided
 
-    if not (arguments.course or Path(course_file.NAME)).exists():
-        raise UsageError("a release needs a course file. Write one with slamlab grade init")
+    if arguments.out or not (arguments.course or Path(course_file.NAME)).exists():
+        raise UsageError(
+            "a release needs a course file. Write one with slamlab grade init, and grade again in "
+            "its folder; without one, give the pages in DIR/feedback to the students"
+        )
     term = term_of(arguments)
     id = exercise_of(term, arguments.exercise)
     url = arguments.db or default_url(arguments.out, new=False)

@@ -25,7 +25,7 @@ _REMEDIES = {
     ".zip": "it is a zip within a zip: submit the notebook itself",
 }  # fmt: skip
 
-_AT_THE_START = re.compile(r"(?:ex)?(\d\d)_", re.IGNORECASE)
+_AT_THE_START = re.compile(r"(?:ex(?=\d\d(?!\d))|(?=\d\d_))(\d\d)", re.IGNORECASE)
 
 
 @dataclass(frozen=True)

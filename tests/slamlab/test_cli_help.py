@@ -75,7 +75,7 @@ def test_every_example_of_a_help_is_accepted(name):
 @pytest.mark.parametrize("name", COMMANDS)
 def test_the_help_of_an_option_is_a_phrase_that_states_its_default(name):
     for action in COMMANDS[name]._actions:
-        if isinstance(action, argparse._HelpAction):
+        if isinstance(action, argparse._HelpAction) or action.help == argparse.SUPPRESS:
             continue
         assert action.help and action.help[0].isupper(), action
         assert not action.help.endswith("."), action

@@ -109,12 +109,15 @@ class Term:
     def unmatched(self, records):
         """Return lines about submissions whose students are not known."""
         file, lines = self.course.roster.name, []
+        known = {r.sha256: r.student for r in records if r.student in self.roster.students}
         unknown, several = (
             sorted(
-                {r.student.removeprefix(prefix) for r in records if r.student.startswith(prefix)}
+                r.student.removeprefix(prefix) + (f" (the same file as of {known[r.sha256]})"
+                                                  if r.sha256 in known else "")
+                for r in {r.student: r for r in records if r.student.startswith(prefix)}.values()
             )
             for prefix in student_matching.UNMATCHED
-        )
+        )  # fmt: skip
         names = [lms_name(r.submission) for r in records if r.student not in self.roster.students]
         of_canvas = sum(name is not None and name.lms == CANVAS for name in names)
         if of_canvas and not any(student.canvas for student in self.roster.students.values()):

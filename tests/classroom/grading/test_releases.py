@@ -160,6 +160,7 @@ def test_a_term_from_download_to_release_from_the_command_line(folder, capsys):
         (["x", "--policy", "p.toml"], "course.toml also sets --policy"),
         (["x", "--course", "no.toml"], "no.toml: No such file"),
         (["release", "04"], "the course file has no exercise 04"),
+        (["release", "99", "--out", "graded"], "a release needs a course file"),
         (["release", "99"], "does not exist: grade submissions first"),
         (["similarity", "04"], "the course file has no exercise 04. It has the exercises 99"),
         (["adjust", "s2", "99-turn", "1", "--reason", "x"], "does not exist: grade submissions"),

@@ -60,7 +60,14 @@ def test_a_solved_exercise_submitted_as_another_earns_nothing(tmp_path):
 
 
 @pytest.mark.parametrize(
-    "name", ["2026-11-15 homework.ipynb", "team_12/hw.ipynb", "anna 1999.ipynb", "anna_04.ipynb"]
+    "name",
+    [
+        "2026-11-15 homework.ipynb",
+        "team_12/hw.ipynb",
+        "anna 1999.ipynb",
+        "anna_04.ipynb",
+        "ex041.ipynb",
+    ],
 )
 def test_a_number_somewhere_in_a_name_determines_no_exercise(name):
     assert identified(name, SILENT, "04") == "04"
@@ -68,7 +75,9 @@ def test_a_number_somewhere_in_a_name_determines_no_exercise(name):
         identified(name, SILENT)
 
 
-@pytest.mark.parametrize("name", ["99_fake.ipynb", "ex99_fake-1.ipynb", "EX99_x.ipynb"])
+@pytest.mark.parametrize(
+    "name", ["99_fake.ipynb", "ex99_fake-1.ipynb", "EX99.ipynb", "ex99 (1).ipynb"]
+)
 def test_a_number_at_the_start_of_a_file_name_determines_the_exercise_last(name):
     assert identified(f"team_12/{name}", SILENT) == "99"
     assert identified(f"Ana Kos_12_assignsubmission_file_{name}", SILENT) == "99"
