@@ -60,6 +60,8 @@ class CarmenLog(LogFile):
                 "readable scan of a laser (FLASER, ROBOTLASER1, RAWLASER1 …)"
             )
         odom, *truth = (np.array(poses[name]).reshape(-1, 5) for name in POSES)
+        if not np.any(odom[:, 2:] != odom[:1, 2:]):
+            odom = odom[:0]
         self._choose(lasers, odom)
         self._merge(odom)
         self._find_geometry()
@@ -130,7 +132,7 @@ class CarmenLog(LogFile):
         self._whose = "robot" if moved or one else "laser"
         if self._whose == "laser" and LASERS[self._names[0]].poses:
             used = "the poses of the laser are used" if self._own_poses else "it is ignored"
-            self.notes.append(f"the odometry in the scan messages is always zero, so {used}")
+            self.notes.append(f"the odometry in the scan messages never changes, so {used}")
 
     def _merge(self, odom):
         """Merge the laser's messages by time and interpolate separate odometry."""

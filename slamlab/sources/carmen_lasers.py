@@ -21,7 +21,7 @@ class LaserMessages:
         self.spool, self.stamps, self.logged = DiskBuffer(), array("d"), array("d")
         self.lengths = array("q")  # numbers of ranges; −1: the message contains its geometry
         self.sample, self.moved = [], {"robot": False, "laser": False}  # whose poses change
-        self._thinning = 1
+        self._first, self._thinning = None, 1
 
     def append(self, message):
         if len(self.spool) % self._thinning == 0:
@@ -32,8 +32,10 @@ class LaserMessages:
         self.stamps.append(message.stamp)
         self.logged.append(message.logged)
         self.lengths.append(len(message.ranges) if message.settings is None else -1)
+        self._first = self._first or message
         for whose in (key for key, moved in self.moved.items() if not moved):
-            self.moved[whose] = bool(np.nan_to_num(getattr(message, whose)).any())
+            change = getattr(message, whose) - getattr(self._first, whose)
+            self.moved[whose] = bool(np.nan_to_num(change).any())
 
     def __len__(self):
         return len(self.spool)

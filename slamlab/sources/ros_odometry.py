@@ -124,6 +124,10 @@ class LaserMotion:
             what = "its poses jump back and forth, as if two nodes published them"
             self._note(f"odometry {poses.name} is not used: {what}; record it with one node")
             return False
+        if poses.stands_still():
+            what = "its pose never changes; check the encoders, and whether the driver sets it"
+            self._note(f"odometry {poses.name} is not used: {what}")
+            return False
         return True
 
     def _static(self, laser, stamps):

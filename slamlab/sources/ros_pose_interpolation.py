@@ -27,6 +27,10 @@ class PoseSeries:
         self._planar = np.column_stack([rows[:, 2:4], yaw])
         self._flip = np.diag([1.0, -1.0, -1.0, 1.0]) if np.median(self.up) < 0 else np.eye(4)
 
+    def stands_still(self):
+        """Return whether several poses are all equal."""
+        return len(self._planar) > 1 and bool(np.ptp(self._planar, axis=0).max() < SAME)
+
     def has_two_publishers(self):
         """Return whether the poses jump back and forth because two publishers disagree."""
         steps = np.diff(self._planar, axis=0)

@@ -22,6 +22,7 @@ from tests.slamlab.formats.carmen_writing import (
     front_and_rear,
     gfs,
     log,
+    odom,
     odoms,
     opened,
     param,
@@ -135,22 +136,6 @@ def test_a_log_is_read_correctly(tmp_path, kind):
     assert source.skipped == 0
 
 
-ENCODINGS = {
-    "UTF-8 with a mark": lambda text: text.encode("utf-8-sig"),
-    "UTF-16 of PowerShell": lambda text: text.replace("\n", "\r\n").encode("utf-16"),
-    "carriage returns alone": lambda text: text.replace("\n", "\r").encode(),
-    "gzip": lambda text: gzip.compress(text.encode()),
-    "no end of the last line": lambda text: text.rstrip("\n").encode(),
-}
-
-
-@pytest.mark.parametrize("encode", ENCODINGS.values(), ids=ENCODINGS)
-def test_a_log_is_read_in_any_encoding(tmp_path, encode):
-    path = tmp_path / "drive.log"
-    path.write_bytes(encode("\n".join(log(flaser)) + "\n"))
-    assert_read_rightly(sources.open(path), DRIVE)
-
-
 def test_true_poses_are_the_lasers_at_the_times_of_its_scans(tmp_path):
     true = [
         words("TRUEPOS", DRIVE.at(t), CENTRE, tail(t), places=6)
@@ -173,6 +158,8 @@ def test_gfs_knows_the_true_poses_of_a_simulation(tmp_path):
         (RAW, True),
         (log(rawlaser), False),
         ([flaser(t, CENTRE) for t in DRIVE.times], False),  # zeros: a lidar without a robot
+        ([flaser(t, DRIVE.poses[3]) for t in DRIVE.times], False),  # dead encoders
+        ([*(odom(t, DRIVE.poses[3]) for t in DRIVE.times), *log(rawlaser)], False),
         ([flaser(t, CENTRE) for t in DRIVE.times[:1]], True),  # where every robot begins
         ([*odoms(), *(flaser(t, CENTRE) for t in DRIVE.times)], True),
     ],
@@ -181,12 +168,6 @@ def test_no_odometry_is_not_odometry_of_zero(tmp_path, lines, message):
     source = opened(tmp_path, lines)
     assert source.has_odometry == message
     assert all((reading.odometry is None) != message for reading in source)
-
-
-def test_a_dead_encoder_is_passed_on_as_it_is(tmp_path):
-    stuck = [flaser(t, DRIVE.poses[3]) for t in DRIVE.times]
-    source = opened(tmp_path, stuck)
-    assert source.has_odometry and np.allclose([r.odometry for r in source], 0)
 
 
 @pytest.mark.parametrize("limit", [30.0, 81.9, 0.0])

@@ -79,6 +79,11 @@ WITHOUT_ODOMETRY = {
         on_odometry=put(turn=lambda k, m: [0, 0, m["pose"][2] + 2, 1]),
         note="161 messages have quaternions whose norm is not 1",
     ),
+    "odometry that never changes": Recording(
+        odometry="topic",
+        on_odometry=put(pose=np.array([1.0, 2.0, 0.5])),
+        note="odometry /odom is not used: its pose never changes",
+    ),
     "odometry that is not a number": Recording(
         odometry="topic",
         on_odometry=put(pose=np.array([np.nan, np.nan, 0])),
