@@ -10,9 +10,9 @@ from slamlab.evaluation.text_table import TextTable
 from slamlab.evaluation.trajectory_formats import FORMATS, LATEST, columns_of
 from slamlab.files import SourceError, reason
 from slamlab.readings import Trajectory
+from slamlab.sources.log_units import headings_in_degrees
 
 EARLIEST = 9e8  # least timestamp of a log in seconds since 1970 (1998)
-ALONG = 0.8  # least mean resultant length of headings along the path [1]
 W_AT = {"TUM": (-1, "first"), "EuRoC": (1, "last")}  # alternative position of w
 SUBUNITS = {"milliseconds": 1e-3, "microseconds": 1e-6, "nanoseconds": 1e-9}
 # with a tenth of other damage, the file has another format
@@ -134,20 +134,9 @@ def _check_rising(what, times, numbers):
 
 
 def _check_radians(what, got):
-    """Raise SourceError if headings seem to be in degrees and no unit is stated.
-
-    A robot moves forward or back along its heading, so twice its angle to the path is constant.
-    """
-    theta, dx, dy = got["theta"], np.diff(got["x"]), np.diff(got["y"])
-    moved = (dx != 0) | (dy != 0)
-    if np.abs(theta).max() <= 2 * np.pi or not moved.any():
-        return
-    course = np.arctan2(dy, dx)[moved]
-    in_radians, in_degrees = (
-        abs(np.exp(2j * (course - unit * theta[:-1][moved])).mean()) for unit in (1, np.pi / 180)
-    )
-    if in_degrees > max(ALONG, 2 * in_radians):
+    """Raise SourceError if headings seem to be in degrees and no unit is stated."""
+    if headings_in_degrees(np.column_stack([got["x"], got["y"], got["theta"]])):
         raise SourceError(
-            f"{what}: headings up to {np.abs(theta).max():.4g} match the path in degrees, not in "
-            "radians; name their unit in the first line, such as theta [deg]"
+            f"{what}: headings up to {np.abs(got['theta']).max():.4g} match the path in degrees, "
+            "not in radians; name their unit in the first line, such as theta [deg]"
         )

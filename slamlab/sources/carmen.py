@@ -18,10 +18,12 @@ from slamlab.sources.base import LogFile
 from slamlab.sources.carmen_beam_angles import runs_clockwise
 from slamlab.sources.carmen_geometry import LaserGeometry
 from slamlab.sources.carmen_messages import LASERS, OTHERS, POSES, parse_pose, parse_scan
+from slamlab.sources.log_units import TIME_UNITS, headings_in_degrees, time_unit, usual_period
 
 KNOWN = {*LASERS, *POSES, b"PARAM", b"SYNC"}
 SWITCHES = {b"on": 1.0, b"yes": 1.0, b"true": 1.0}  # values of PARAM lines that are words
 MAX_PAIRS = 500  # scans by which the direction of rotation is determined
+MAX_PERIOD = 10.0  # of scans; longer ones are in another unit [s]
 
 
 class CarmenLog(LogFile):
@@ -137,8 +139,18 @@ class CarmenLog(LogFile):
     def _merge(self, odom):
         """Merge the laser's messages by time and interpolate separate odometry."""
         odom = odom[:0] if self._own_poses else odom
+        own = [getattr(each, self._whose) for laser in self._lasers for each in laser.sample]
+        if headings_in_degrees(np.array(own) if self._own_poses else odom[:, 2:]):
+            raise SourceError(
+                f"{self.name}: the headings of the odometry match its path in degrees, not in "
+                "radians; multiply them by π/180"
+            )
         self._clock = carmen_lasers.choose_clock(self._lasers, odom)
         self._times, self._order, self._used = carmen_lasers.merge(self._lasers, self._clock)
+        self._tick = time_unit(usual_period(self._times), 0.0, MAX_PERIOD) or 1.0
+        if self._tick != 1.0:
+            self.notes.append(f"the timestamps are read as {TIME_UNITS[self._tick]}")
+            self._times, odom = self._times * self._tick, self._in_seconds(odom)
         if self.has_odometry and not self._own_poses:
             rows, times = carmen_lasers.remove_clock_jumps(odom, self._clock, self._times)
             stamps, poses = carmen_lasers.sort_by_time(rows, self._clock)
@@ -148,6 +160,9 @@ class CarmenLog(LogFile):
         backwards = np.diff(self._times[self._used]) < 0
         if backwards.any():
             self.damage["timestamps that run backwards"] += int(backwards.sum())
+
+    def _in_seconds(self, rows):
+        return rows * [self._tick, self._tick, 1, 1, 1]
 
     def _find_geometry(self):
         """Find the field of view, mounting and maximum range of the log's laser."""
@@ -194,7 +209,7 @@ class CarmenLog(LogFile):
     def _find_truth(self, truth):
         if len(truth) < 2:
             return
-        times, poses = carmen_lasers.sort_by_time(truth, self._clock)
+        times, poses = carmen_lasers.sort_by_time(self._in_seconds(truth), self._clock)
         known = (self._times >= times[0]) & (self._times <= times[-1]) & self._used
         at = np.unique(self._times[known])
         if len(at):

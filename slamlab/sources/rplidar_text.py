@@ -14,11 +14,11 @@ from slamlab.files import SourceError
 from slamlab.readings import Reading, Scan
 from slamlab.simulation.range_scanners import RPLIDAR_A2
 from slamlab.sources.base import LogFile
+from slamlab.sources.log_units import time_unit
 from slamlab.sources.rplidar_text_formats import SAMPLE, KeyValueFormat, TableFormat, UnreadableLine
 
 DEFAULT_PERIOD = 0.1  # of a revolution, for a log without times [s]
 PERIODS = 0.02, 2.0  # plausible periods of a revolution [s]
-TIME_UNITS = 1.0, 1e-3, 1e-6, 1e-9  # [s]
 WRAP_JUMP = 180.0  # larger jumps of the angle begin a revolution [degree]
 MAX_SWEEP, MAX_POINTS = 363.0, 50_000  # of a revolution without a start flag [degree, 1]
 MIN_SPAN, MIN_POINTS, MIN_SHARE = 350.0, 50, 0.7  # of a complete revolution [degree, 1, of median]
@@ -162,7 +162,7 @@ class RplidarText(LogFile):
         self._unit, self._period = None, DEFAULT_PERIOD
         periods = np.diff(self._ends)
         if len(periods) and np.isfinite(periods).all() and (periods > 0).all():
-            period, (least, most) = float(np.median(periods)), PERIODS
-            fitting = [unit for unit in TIME_UNITS if least <= period * unit <= most]
-            if fitting:
-                self._unit, self._period = fitting[0], period * fitting[0]
+            period = float(np.median(periods))
+            self._unit = time_unit(period, *PERIODS)
+            if self._unit is not None:
+                self._period = period * self._unit

@@ -44,10 +44,8 @@ class KeyValueFormat:
 
     ANGLE = rb"\b(?:theta|angle)['\"]?\s*[:=]\s*(?P<angle>[-+\w.]+)"
     DISTANCE = rb"\bdist(?:ance)?['\"]?\s*[:=]\s*(?P<distance>[-+\d.]+)\s*(?P<unit>[cm]?m\b)?"
-    ORDERS = [
-        re.compile(rb"[^{}\r\n]{0,200}?".join(order), re.IGNORECASE)
-        for order in ((ANGLE, DISTANCE), (DISTANCE, ANGLE))
-    ]
+    GAP = rb"[^{}\r\n]{0,200}?"
+    ORDERS = re.compile(ANGLE + GAP + DISTANCE, re.I), re.compile(DISTANCE + GAP + ANGLE, re.I)
     PART = re.compile(rb"\{|theta|angle|dist|quality", re.IGNORECASE)  # of a truncated point
     MARK = re.compile(rb"\b(?:start\w*|new_scan)['\"]?\s*[:=]\s*(?:true|1)\b|\bS\s+theta", re.I)
 

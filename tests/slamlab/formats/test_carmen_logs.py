@@ -170,6 +170,19 @@ def test_no_odometry_is_not_odometry_of_zero(tmp_path, lines, message):
     assert all((reading.odometry is None) != message for reading in source)
 
 
+@pytest.mark.parametrize("unit", ["milliseconds", "microseconds", "nanoseconds"])
+@pytest.mark.parametrize("lines", [log(flaser), RAW], ids=["FLASER", "RAWLASER1 and ODOM"])
+def test_timestamps_in_other_units_are_read_in_seconds(tmp_path, unit, lines):
+    factor = {"milliseconds": 1e3, "microseconds": 1e6, "nanoseconds": 1e9}[unit]
+    rows = [line.rsplit(" ", 3) for line in lines]
+    lines = [
+        f"{row} {float(t) * factor:.0f} {host} {float(u) * factor:.0f}" for row, t, host, u in rows
+    ]
+    source = opened(tmp_path, lines)
+    assert_read_rightly(source, DRIVE)
+    assert source.notes[-1] == f"the timestamps are read as {unit}"
+
+
 @pytest.mark.parametrize("limit", [30.0, 81.9, 0.0])
 def test_the_maximum_range_is_read_and_what_stands_for_no_return_is_none(tmp_path, limit):
     lines = [line.replace(" 81.900000 ", f" {limit:.6f} ") for line in log(robotlaser)]

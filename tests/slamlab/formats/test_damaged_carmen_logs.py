@@ -97,6 +97,10 @@ REFUSED = {
         [param("laser_front_laser_resolution", 1.0), *log(flaser, angles=WIDE)],
         "PARAM lines contradict the scans",
     ),
+    "headings in degrees": (
+        log(lambda t, p: flaser(t, p * [1, 1, 180 / np.pi])),
+        "headings of the odometry match its path in degrees, not in radians; multiply them",
+    ),
     "messages that contradict themselves": (
         log(robotlaser, step=np.radians(3.0)),
         r"first of 40 lost readings is in line 1 \(scans with inconsistent field of view",
