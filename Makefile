@@ -53,8 +53,8 @@ format: env
 notebooks: env  ## Derive notebooks/, exercises/ and solutions/ from course/
 	$(RUN) course.build
 
-site: env  ## Build the course's site into site/; needs Node.js for the formulas
-	$(RUN) course.site
+site: env  ## Build the course's site into site/; needs Node.js for the formulas; SITE_ARGS go to course.site
+	$(RUN) course.site $(SITE_ARGS)
 
 student: env  ## Write the students' pack slam-course.zip, without solutions; needs Node.js for the lessons' pages
 	$(RUN) course.pack

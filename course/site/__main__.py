@@ -14,6 +14,7 @@ def main(argv=None):
     parser.add_argument("--out", type=Path, default=ROOT / "site", help="where to (site/)")
     parser.add_argument("--lessons", nargs="*", help="whose films and sliders to render (all)")
     options = parser.parse_args(argv)
+    print("building the site, which takes several minutes at first", file=sys.stderr)
     try:
         failed = building.build(options.out, rendered=options.lessons)
     except building.SiteError as error:
