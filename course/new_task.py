@@ -79,7 +79,7 @@ def {name}(step):
     return abs(step[0]) + abs(step[1])
 """
 CELLS = '''# %% [markdown]
-# ## Task: …
+# ## {number} · …
 #
 # Complete `{name}`: …
 
@@ -139,7 +139,9 @@ def begin(exercise, name):
         home / "exercise.py", f"course.exercises.{home.name}.{function}.task", words["constant"]
     )
     notebook = home / "notebook.py"
-    before, last, after = notebook.read_text("utf-8").rpartition(LAST)
+    text = notebook.read_text("utf-8")
+    words["number"] = len(re.findall(r"^# ## \d+ · ", text, re.MULTILINE)) + 1
+    before, last, after = text.rpartition(LAST)
     notebook.write_text(before + CELLS.format(**words) + last + after, "utf-8")
     files = [home / name for name in ("notebook.py", "calls.py", "exercise.py")]
     return [*files, *(folder / file for file in texts)]

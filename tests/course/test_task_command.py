@@ -1,6 +1,7 @@
 """A new task begins as an example that runs, and a task is tried with one command."""
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -53,6 +54,8 @@ def test_a_task_that_was_begun_runs_and_nothing_is_wrong_with_it(copy):
 def test_a_task_that_was_begun_follows_the_style(copy):
     assert run(copy, "new", "16", "a-gate").returncode == 0
     folder = next((copy / "course" / "exercises").glob("ex16_*"))
+    headings = re.findall(r"^# ## (.*)", (folder / "notebook.py").read_text("utf-8"), re.M)
+    assert "4 · …" in headings and any(heading.startswith("3 · ") for heading in headings)
     for check in (["check"], ["format", "--check"]):
         ruff = [sys.executable, "-m", "ruff", *check, "--config", ROOT / "pyproject.toml", folder]
         done = subprocess.run(ruff, cwd=copy, capture_output=True, text=True)
