@@ -139,12 +139,12 @@ def test_two_students_of_one_name_in_the_roster_are_reported_as_several(folder):
     assert len(lines) == 2, "nobody's score can be released"
 
 
-def test_a_stranger_whose_file_was_graded_again_as_a_student_is_named_with_the_student(folder):
+def test_an_unknown_id_whose_file_was_graded_again_as_a_student_is_named_with_the_student(folder):
     made = term.load(folder / "course.toml")
-    stranger = attempt("not in the roster: s11", 1)
-    (line,) = made.unmatched([stranger, attempt("s1", 1), attempt("s2", 1, sha="c")])
+    unknown = attempt("not in the roster: s11", 1)
+    (line,) = made.unmatched([unknown, attempt("s1", 1), attempt("s2", 1, sha="c")])
     assert "submissions.csv: s11 (the same file as of s1). Name" in line
-    (line,) = made.unmatched([stranger, attempt("s2", 1, sha="c")])
+    (line,) = made.unmatched([unknown, attempt("s2", 1, sha="c")])
     assert "submissions.csv: s11. Name" in line
 
 
