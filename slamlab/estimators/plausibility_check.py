@@ -9,7 +9,7 @@ from slamlab.readings import Scan
 
 # largest plausible increment: constant, and per time
 JUMP, MAX_SPEED = 0.5, 15.0  # of any robot [m, m/s]
-SUDDEN_JUMP, SUDDEN_SPEED, SPEED_FACTOR = 0.3, 3.0, 5.0  # after slower motion [m, m/s, 1]
+SUDDEN_JUMP, SUDDEN_SPEED, SPEED_FACTOR = 0.2, 1.5, 2.0  # after slower motion [m, m/s, 1]
 MAX_TURN, MAX_TURN_RATE = 0.5, 8.0  # [rad, rad/s]
 WINDOW = 20  # readings that determine the usual period and speed
 GAP_FACTOR = 5.0  # a gap is longer than so many median periods [1]

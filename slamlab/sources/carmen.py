@@ -142,7 +142,7 @@ class CarmenLog(LogFile):
         own = [getattr(each, self._whose) for laser in self._lasers for each in laser.sample]
         if headings_in_degrees(np.array(own) if self._own_poses else odom[:, 2:]):
             raise SourceError(
-                f"{self.name}: the headings of the odometry match its path in degrees, not in "
+                f"{self.name}, read as a CARMEN log: the headings match the path in degrees, not in "
                 "radians; multiply them by π/180"
             )
         self._clock = carmen_lasers.choose_clock(self._lasers, odom)

@@ -55,8 +55,9 @@ def test_a_turn_passes_although_its_two_stamps_lie_milliseconds_apart():
     assert not counts
 
 
-def test_a_robot_that_restarts_its_odometry_two_metres_away_is_seen():
-    odometry, counts = passed([[0.05, 0, 0]] * 40 + [[-2.0, 0, 0]] + [[0.05, 0, 0]] * 5)
+@pytest.mark.parametrize("distance", [0.7, 2.0])
+def test_a_robot_that_restarts_its_odometry_at_some_distance_is_seen(distance):
+    odometry, counts = passed([[0.05, 0, 0]] * 40 + [[-distance, 0, 0]] + [[0.05, 0, 0]] * 5)
     assert odometry[40] is None and counts == {ODOMETRY_JUMPS: 1}
 
 

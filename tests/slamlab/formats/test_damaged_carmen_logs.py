@@ -99,7 +99,7 @@ REFUSED = {
     ),
     "headings in degrees": (
         log(lambda t, p: flaser(t, p * [1, 1, 180 / np.pi])),
-        "headings of the odometry match its path in degrees, not in radians; multiply them",
+        "CARMEN log: the headings match the path in degrees, not in radians; multiply them",
     ),
     "messages that contradict themselves": (
         log(robotlaser, step=np.radians(3.0)),
