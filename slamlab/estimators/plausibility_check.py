@@ -20,6 +20,7 @@ MAX_SPAN = 6 * np.pi  # a larger span of angles is in degrees, or damaged [rad]
 # at least MIN_EQUAL equal ranges beyond this share of the maximum range mean no return
 OUTERMOST, MIN_EQUAL = 0.99, 4
 ODOMETRY_JUMPS, NOT_FINITE = "odometry jumps", "odometry increments not finite"
+TURN_JUMPS = "odometry jumps of the heading"
 IN_MILLIMETRES = "scans whose ranges may be in millimetres"
 IN_DEGREES = "scans whose angles may be in degrees"
 MANY = 0.1  # a larger share of implausible readings has a common cause [1]
@@ -73,8 +74,10 @@ class PlausibilityCheck:
             bound = min(bound, SUDDEN_JUMP + sudden * period)
         # some logs have increments of half a second with timestamps milliseconds apart
         max_turn = MAX_TURN + MAX_TURN_RATE * max(period, MIN_PERIOD)
-        if distance > bound or abs(odometry[2]) > max_turn:
+        if distance > bound:
             return ODOMETRY_JUMPS
+        if abs(odometry[2]) > max_turn:
+            return TURN_JUMPS
         self._speeds = [*self._speeds[1 - WINDOW :], distance / max(period, 1e-3)]
         return ""
 
@@ -83,6 +86,7 @@ def impossible_shares(counts, readings):
     """Return sentences that state frequent anomalies of the readings and their possible causes."""
     causes = (
         (ODOMETRY_JUMPS, "the odometry may be in millimetres (--odometry-scale 0.001)"),
+        (TURN_JUMPS, "its turns may be in degrees (--turn-scale 0.0174533)"),
         (NOT_FINITE, "the odometry may be damaged (--ignore-odometry)"),
         (IN_MILLIMETRES, "--range-scale 0.001 converts them"),
         (IN_DEGREES, "--field-of-view sets the angles"),

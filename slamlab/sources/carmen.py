@@ -142,8 +142,8 @@ class CarmenLog(LogFile):
         own = [getattr(each, self._whose) for laser in self._lasers for each in laser.sample]
         if headings_in_degrees(np.array(own) if self._own_poses else odom[:, 2:]):
             raise SourceError(
-                f"{self.name}, read as a CARMEN log: the headings match the path in degrees, not in "
-                "radians; multiply them by π/180"
+                f"{self.name}, read as a CARMEN log: the headings match the path in degrees, not "
+                "in radians; multiply them by π/180"
             )
         self._clock = carmen_lasers.choose_clock(self._lasers, odom)
         self._times, self._order, self._used = carmen_lasers.merge(self._lasers, self._clock)

@@ -66,6 +66,8 @@ def _choose_scan(path, counts, wanted):
         if kind in CONVERSIONS and count:
             what += f"; {topic} has the type {_short(kind)}, {_instead(kind)}"
             break
+    else:
+        what += "; record the topic of the lidar as well"
     raise SourceError(f"{path} contains no scan: {what}")
 
 
