@@ -5,6 +5,7 @@ from array import array
 from collections import Counter
 from dataclasses import dataclass
 from itertools import islice
+from pathlib import Path
 
 import numpy as np
 
@@ -40,6 +41,8 @@ class TextTable:
     """
 
     def __init__(self, path, row):
+        if Path(path).is_fifo():
+            raise SourceError(f"{path} is a pipe, but it is read twice: write it to a file")
         self.path, self.headers, self.commas = path, [], False
         self.damage, self.where = Counter(), {}
         sample = list(islice(self._rows(InputFile(path), self.headers), SAMPLED))

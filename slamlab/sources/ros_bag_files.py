@@ -32,7 +32,7 @@ def is_bag(path):
     try:
         if path.is_dir():
             return (path / METADATA).is_file() or bool(_storage_files(path))
-        magic = magic_number(path)
+        magic = magic_number(path) if path.is_file() else None  # a pipe can be read only once
     except (OSError, ValueError):
         return False  # the reader of logs reports the error
     return magic in SUFFIXES or (magic == ZSTD and Path(path.stem).suffix in SUFFIXES.values())

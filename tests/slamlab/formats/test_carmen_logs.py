@@ -1,14 +1,17 @@
 """CARMEN logs of every kind are read rightly."""
 
 import gzip
+import os
 import tracemalloc
+from threading import Thread
 
 import numpy as np
 import pytest
 
 from slamlab import files, sources
+from slamlab.evaluation import load_relations
 from slamlab.geometry import compose
-from slamlab.sources import carmen_lasers, disk_buffer
+from slamlab.sources import SourceError, carmen_lasers, disk_buffer
 from tests.slamlab.formats.carmen_writing import (
     AHEAD,
     DRIVE,
@@ -127,6 +130,18 @@ REPORTED = {
     "RAWLASER1 with its mounting": {"mount": np.array([0.3, 0, 0])},
     "two lasers": {"mount": REAR, "count": 78},
 }
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="needs named pipes")
+def test_a_pipe_is_read_from_its_first_line(tmp_path):
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    writer = Thread(target=pipe.write_text, args=["\n".join(LINES) + "\n"], daemon=True)
+    writer.start()
+    assert_read_rightly(sources.open(pipe), DRIVE)
+    writer.join()
+    with pytest.raises(SourceError, match="pipe is a pipe, but it is read twice: write it to"):
+        load_relations(pipe)
 
 
 @pytest.mark.parametrize("kind", READ)
