@@ -12,7 +12,6 @@ from hypothesis.extra import numpy as hnp
 
 from classroom.grading import wire_protocol
 from classroom.grading.wire_protocol import WireError
-from tests.classroom.grading.fuzz import damaged, rejected_or_plain
 
 PLAIN = st.recursive(
     st.none()
@@ -128,6 +127,37 @@ def test_data_that_fit_no_frame_are_not_sent(head, arrays):
 def test_bytes_of_booleans_other_than_zero_become_true():
     _, arrays = received(of_arrays([["x", "b1", [3]]], b"\x00\x01\x7f"))
     assert arrays["x"].tolist() == [False, True, True]
+
+
+WHOLE = wire_protocol.pack({"turn": 3, "problem": "x"}, {"r": np.arange(4.0), "b": [True, False]})
+HOT = b'{}[]",:0123456789-.eE\\u\x00\xff fib'
+
+
+def damaged(count, seed):
+    """Yield frames with some bytes changed, some with their end cut off."""
+    rng = np.random.default_rng(seed)
+    for _ in range(count):
+        data = bytearray(WHOLE)
+        for position in rng.integers(0, len(data), rng.integers(1, 5)):
+            data[position] = (
+                HOT[rng.integers(len(HOT))] if rng.random() < 0.7 else rng.integers(256)
+            )
+        if rng.random() < 0.2:
+            del data[rng.integers(len(data)) :]
+        yield bytes(data)
+
+
+def rejected_or_plain(data):
+    """Whether some bytes are a frame; anything but a clean rejection or plain data is an error."""
+    try:
+        got = wire_protocol.receive(io.BytesIO(data))
+    except wire_protocol.WireError:
+        return False
+    if got is not None:
+        head, arrays = got
+        assert isinstance(head, dict)
+        assert all(array.dtype.kind in "fib" for array in arrays.values())
+    return got is not None
 
 
 @settings(max_examples=1000)
