@@ -85,7 +85,10 @@ class PlausibilityCheck:
 def impossible_shares(counts, readings):
     """Return sentences that state frequent anomalies of the readings and their possible causes."""
     causes = (
-        (ODOMETRY_JUMPS, "the odometry may be in millimetres (--odometry-scale 0.001)"),
+        (
+            ODOMETRY_JUMPS,
+            "the odometry may be in millimetres or centimetres (--odometry-scale 0.001 or 0.01)",
+        ),
         (TURN_JUMPS, "its turns may be in degrees (--turn-scale 0.0174533)"),
         (NOT_FINITE, "the odometry may be damaged (--ignore-odometry)"),
         (IN_MILLIMETRES, "--range-scale 0.001 converts them"),

@@ -31,6 +31,7 @@ class BreezySlamLog(LogFile):
         return any(len(row) >= COLUMNS and b"".join(_scan(row)).isdigit() for row in rows)
 
     def _parse(self, file):
+        first, moved = None, False
         for number, line, complete in file.lines():
             words = line.split()
             try:
@@ -45,9 +46,14 @@ class BreezySlamLog(LogFile):
                 if words:
                     self._count_lost("lines without a complete scan", number)
                 continue
+            first = first or ticks
+            moved = moved or ticks != first
             self._rows.append((stamp, np.array(ticks), ranges))
         if not len(self._rows):
             raise self._nothing_usable("readable scan of a BreezySLAM log")
+        self.has_odometry = moved or len(self._rows) == 1
+        if not self.has_odometry:
+            self.notes.append("the ticks of the wheels never change, so they are ignored")
 
     def __iter__(self):
         angles = np.linspace(-FIELD_OF_VIEW / 2, FIELD_OF_VIEW / 2, BEAMS)
@@ -55,10 +61,11 @@ class BreezySlamLog(LogFile):
         for stamp, ticks, ranges in self._rows:
             before = ticks if before is None else before
             left, right = (ticks - before) * 2 * np.pi * WHEEL_RADIUS / TICKS_PER_TURN
+            odometry = lidar_motion(arc(left, right, WHEEL_BASE))
             ranges = np.where(ranges > 0, ranges / 1000, np.nan)
             yield Reading(
                 time=stamp / 1e6,
-                odometry=lidar_motion(arc(left, right, WHEEL_BASE)),
+                odometry=odometry if self.has_odometry else None,
                 scan=Scan(angles, ranges, RANGE_MAX, RANGE_MIN),
             )
             before = ticks

@@ -30,6 +30,11 @@ def opened(tmp_path, text):
     return sources.open(path)
 
 
+def test_breezyslam_wheels_that_never_turn_are_no_odometry(tmp_path):
+    source = opened(tmp_path, breezy_lines([(500, 500)] * 3))
+    assert not source.has_odometry and [r.odometry for r in source] == [None] * 3
+
+
 def test_breezyslam_wheels_with_equal_motion_drive_straight(tmp_path):
     readings = list(opened(tmp_path, breezy_lines([(0, 0), (2000, 2000), (3000, 3000)])))
     assert np.allclose(readings[1].odometry, [2 * np.pi * WHEEL_RADIUS, 0, 0])
