@@ -23,6 +23,7 @@ TOLERANCE = 0.25  # of the ratios from 1: wheels slip, and wheel bases are appro
 MAX_OUTLIERS = 0.25  # largest share of outlier pairs while the ratios are correct [1]
 OUTLIER = 0.15, 0.1  # least disagreement, in addition to the tolerance of the motion [m, rad]
 UNITS = {1000.0: "in millimetres", 0.001: "in kilometres", 100.0: "in centimetres"}
+REPEATED = 200.0  # larger ratios, if not of UNITS, mean that the scans do not change [1]
 REMEDY = "; compare with --ignore-odometry"
 
 
@@ -106,6 +107,8 @@ def _of_turns(odometry, matched):
         return [f"{begin}: an encoder may be defective, or the wheels slip{REMEDY}"]
     if abs(ratio * np.pi / 180 - 1) <= TOLERANCE:
         return [f"{begin}: its turns may be in degrees (--turn-scale {np.pi / 180:.6f})"]
+    if abs(ratio) > REPEATED:
+        return [f"{begin}: the lidar or its driver may repeat an old scan"]
     return [
         f"{begin}: the field of view (--field-of-view) or the wheel base may be wrong "
         f"(--turn-scale {1 / ratio:.2f}), or the wheels slip"
@@ -126,6 +129,8 @@ def _of_distances(odometry, matched):
     for factor, unit in UNITS.items():
         if abs(ratio / factor - 1) <= TOLERANCE:
             return [f"{begin}: it may be {unit} (--odometry-scale {1 / factor:g})"]
+    if ratio > REPEATED:
+        return [f"{begin}: the lidar or its driver may repeat an old scan"]
     return [
         f"{begin}: its unit or the wheel radius may be wrong (--odometry-scale {1 / ratio:.3g}), "
         "or the wheels slip"

@@ -45,6 +45,7 @@ FAULTS = {
     "odometry that stands still": ({"odometry": scaled(0, 0, 0)}, "an encoder may be defective"),
     "millimetres": ({"odometry": scaled(1000, 1000, 1)}, "--odometry-scale 0.001"),
     "distances that are double": ({"odometry": scaled(2, 2, 1)}, "--odometry-scale 0.5"),
+    "a scan that is repeated": ({"scan": lambda scan: READINGS[0].scan}, "may repeat an old scan"),
     "a lidar turned on its robot": ({"scan": turned}, "--lidar-yaw -40"),
 }
 
