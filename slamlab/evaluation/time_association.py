@@ -57,10 +57,10 @@ def associated(first, second, tolerance, names):
     why = _indices(first, second, names) if few or len(pairs) < len(first) == len(second) else ""
     if few and not why:
         why = explanation(first, second, tolerance, names)
-    least = 2
-    if few and not _are_regular(first, second, tolerance):
-        least = 3 + 2 * len(associate(first + 3 * tolerance, second, tolerance))  # not by chance
-    if why or len(pairs) < min(least, fewest):
+    by_chance = 1  # as many pairs as after an arbitrary shift
+    if few and not _are_regular((first, second), tolerance):
+        by_chance = 2 + 2 * len(associate(first + 3 * tolerance, second, tolerance))
+    if why or len(pairs) <= min(by_chance, fewest - 1):
         raise ValueError(
             f"{len(pairs)} of {len(first)} timestamps of {names[0]} and {len(second)} of "
             f"{names[1]} match within {tolerance:g} s: {why or _nearest(first, second, names)}"
@@ -72,15 +72,14 @@ def explanation(first, second, tolerance, names):
     """Find a unit or an offset by which most timestamps of ``names`` would match. Return it and a
     remedy in words, or "" if there is none."""
     fewest = min(len(first), len(second))
-    regular = _are_regular(first, second, tolerance)
+    regular = _are_regular((first, second), tolerance)
     half = max(tolerance, np.median(np.diff(second)) / 2 if len(second) > 1 else 0.0)
     trials = [(a, b) for a in (1.0, *FACTORS) for b in (0.0, second[0] - a * first[0])]
     for bound in (tolerance, half):  # the offset of regular series is only known up to their period
         best, most = None, max(MANY * fewest, 2 * len(associate(first, second, bound)))
         for factor, offset in trials:
             count = len(associate(factor * first + offset, second, bound))
-            # regular stamps may also lie between the others
-            shifted = factor != 1 or not regular or abs(offset) >= 2 * half
+            shifted = factor != 1 or not regular or abs(offset) >= 2 * half  # or in between
             if shifted and count > max(most, CHANCE[int(factor != 1) + int(offset != 0)]):
                 best, most = (factor, offset), count
         if best:
@@ -88,14 +87,10 @@ def explanation(first, second, tolerance, names):
     return ""
 
 
-def _are_regular(first, second, tolerance):
-    """Whether most timestamps of each set match themselves after a shift by their period."""
-    return all(
-        len(times) < 2
-        or len(associate(times + np.median(np.diff(times)), times, tolerance))
-        > MANY * len(times) - 1
-        for times in (first, second)
-    )
+def _are_regular(series, tolerance):
+    """Whether the timestamps of each series are equally spaced, apart from a few."""
+    spread = [np.percentile(np.diff(times), (15, 85)) for times in series if len(times) > 1]
+    return (np.ptp(spread, axis=1) <= tolerance).all() if spread else True
 
 
 def _in_words(factor, offset, names):
@@ -129,8 +124,8 @@ def _nearest(first, second, names):
     return (
         f"the nearest differ by {np.abs(first[i] - second[j]).min():.3g} s ({names[0]} is from "
         f"{first[0]:.9g} to {first[-1]:.9g} s, {names[1]} from {second[0]:.9g} to "
-        f"{second[-1]:.9g} s); if they belong to one run, use a larger "
-        "tolerance, or if the clocks differ, add the difference to the times"
+        f"{second[-1]:.9g} s); if they belong to one run, use a larger tolerance, or if the "
+        "clocks differ, add the difference to the times"
     )
 
 
