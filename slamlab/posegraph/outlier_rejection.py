@@ -30,7 +30,6 @@ WIDE = 100.0  # multiple of Φ that a search allows at first [1]
 # them, multiple of Φ that it allows at first [1]
 STARTS = (0.1, 1, WIDE), (0.5, 0, 1), (0.3, 1, WIDE), (0.05, 1, WIDE), (1, 0, 1e6)
 PRUNINGS = 8  # at most, of the best result
-SAME, SAME_MAP = 100.0, 0.1  # squared distance [1] and rms distance [m] of results that agree
 AMBIGUOUS = 3.0  # largest difference of the costs of two ambiguous results, in Φ [1]
 
 
@@ -48,16 +47,15 @@ def reject_outliers(problem, poses, fixed, dropped, phi, settings):
     results = []
     for result in _searches(problem, poses, fixed, trusted, phi):
         results, _ = _ranked([*results, result], phi)
-        if len(results) > 1 and results[0].distance(results[1]) < SAME:
+        if len(results) > 1 and results[0].agrees(results[1]):
             break
     results[0] = _pruned(problem, results[0], fixed, trusted, phi)
     results += [_opposite(problem, results[0], fixed, trusted, phi)]
     (best, *others), costs = _ranked(results, phi)
     found, optimum = optimise(problem.select(best.accepted), best.poses, *settings)
     for other, cost in zip(others, costs[1:], strict=True):
-        away = float(np.sqrt(2 * np.mean((other.poses - found)[:, :2] ** 2)))
-        if best.distance(other) >= SAME and away >= SAME_MAP:
-            runner_up = cost - costs[0], away
+        if not best.agrees(other):
+            runner_up = cost - costs[0], best.distance(other)
             ambiguous = runner_up[0] < AMBIGUOUS * phi
             optimum = replace(optimum, runner_up=runner_up, ambiguous=ambiguous)
             break

@@ -12,6 +12,7 @@ from slamlab.posegraph.spanning_tree import SpanningTree, covariances
 FACTOR = 0.25  # by which the multiple of Φ that a search allows changes in each stage [1]
 STAGES, STEPS, MORE_STEPS = 25, 2, 10  # of a search, and iterations of the optimiser in each
 READMISSIONS = 8  # at most, of each search
+SAME_MAP, SAME_FIT = 0.1, 100.0  # limits below which two results agree [m, rms], [1]
 TESTED = 30  # accepted edges, of the largest χ², without which the cost is computed
 PRIOR_FREEDOM = 30.0  # degrees of freedom with which a scale of 1 enters its estimate [1]
 SAFETY = 3.0  # of the estimated scale, since noise is seldom Gaussian [1]
@@ -34,8 +35,13 @@ class Search(NamedTuple):
         return float(chi2 + phi * np.count_nonzero(~self.accepted))
 
     def distance(self, other):
-        """Squared distance to another result: the increase in χ² of the edges accepted here."""
-        return float((other.chi2 - self.chi2)[self.accepted].sum()) / self.scale
+        """Compute the rms distance of the positions of another result [m]."""
+        return float(np.sqrt(2 * np.mean((other.poses - self.poses)[:, :2] ** 2)))
+
+    def agrees(self, other):
+        """Return whether another result is near this one or fits the edges accepted here."""
+        increase = (other.chi2 - self.chi2)[self.accepted].sum() / self.scale
+        return self.distance(other) < SAME_MAP or increase < SAME_FIT
 
 
 def search(problem, poses, trusted, chosen, factor, phi):
