@@ -85,10 +85,7 @@ class PlausibilityCheck:
 def impossible_shares(counts, readings):
     """Return sentences that state frequent anomalies of the readings and their possible causes."""
     causes = (
-        (
-            ODOMETRY_JUMPS,
-            "the odometry may be in millimetres or centimetres (--odometry-scale 0.001 or 0.01)",
-        ),
+        (ODOMETRY_JUMPS, "it may be in millimetres or centimetres (--odometry-scale 0.001, 0.01)"),
         (TURN_JUMPS, "its turns may be in degrees (--turn-scale 0.0174533)"),
         (NOT_FINITE, "the odometry may be damaged (--ignore-odometry)"),
         (IN_MILLIMETRES, "--range-scale 0.001 converts them"),

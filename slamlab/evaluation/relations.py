@@ -19,14 +19,8 @@ ROW = f"relation: a row has 8 numbers, {' '.join(NAMES)} [s, m, rad]"
 
 @dataclass(frozen=True)
 class Relations:
-    """Ground-truth relations: each is a relative pose between two timestamps.
-
-    Parameters
-    ----------
-    stamps : (n, 2) t1 and t2 [s]
-    poses : (n, 3) at t2, relative to that at t1 [m, m, rad]
-    damage : Counter, unusable rows by kind
-    """
+    """Ground-truth relations: ``poses`` (n, 3) at t2 relative to those at t1 [m, m, rad], with
+    ``stamps`` (n, 2) t1 and t2 [s]; ``damage`` counts unusable rows by kind."""
 
     stamps: np.ndarray
     poses: np.ndarray
@@ -35,14 +29,8 @@ class Relations:
 
 @dataclass(frozen=True)
 class RelationsError:
-    """Relations error of a trajectory: mean and standard deviation.
-
-    Parameters
-    ----------
-    count : int, used relations: both timestamps have a pose
-    translation, translation_std : float [m]
-    rotation, rotation_std : float [rad]
-    """
+    """Relations error of a trajectory: mean and standard deviation [m, rad] over the ``count``
+    relations whose timestamps both have a pose."""
 
     count: int
     translation: float
@@ -87,11 +75,7 @@ def relations_error(trajectory, relations, tolerance=TIME_TOLERANCE):
     et al. 2009, equation 3). Returns a RelationsError. Raises ValueError if no relation has both
     timestamps in the trajectory.
 
-    Parameters
-    ----------
-    trajectory : Trajectory, times [s], poses [m, m, rad]
-    relations : Relations
-    tolerance : float, largest difference of the timestamps of a relation and a pose [s]
+    ``tolerance`` is the largest difference of the timestamps of a relation and a pose [s].
     """
     pairs, wanted = usable_relations(trajectory.times, relations, tolerance)
     error = relation_residuals(trajectory.poses, pairs, wanted)

@@ -152,8 +152,7 @@ def _header(number, text, commented):
     if len(parts) == 1:  # names are separated by blanks; each may have its unit in brackets
         parts = re.findall(r"[^\s\[(]+(?:\s*[\[(][^\])]*[\])])?", text)
     named = [_name(part) for part in parts]
-    names, factors = [name for name, _ in named], [factor for _, factor in named]
-    return Header(number, shown, names, factors, commented)
+    return Header(number, shown, [n for n, _ in named], [unit for _, unit in named], commented)
 
 
 def _name(part):

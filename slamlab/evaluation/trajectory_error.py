@@ -10,15 +10,8 @@ from slamlab.geometry import between, wrap
 
 @dataclass(frozen=True)
 class TrajectoryError:
-    """Root mean square (RMSE) and maximum of a trajectory error.
-
-    Parameters
-    ----------
-    count : int, poses or steps compared
-    translation, translation_max : float [m]
-    rotation, rotation_max : float [rad]
-    of : int, poses or steps of the estimate, with or without a true pose at their time
-    """
+    """Root mean square (RMSE) and maximum of a trajectory error [m, rad] over the compared poses or
+    steps, whose number is ``count``; ``of`` also counts those without a true pose at their time."""
 
     count: int
     translation: float
@@ -34,10 +27,7 @@ def absolute_error(estimate, truth, tolerance=TOLERANCE):
     TrajectoryError. Raises ValueError if the times do not match, with the reason: unit, epoch,
     offset, not ascending.
 
-    Parameters
-    ----------
-    estimate, truth : Trajectory, times [s], poses [m, m, rad]
-    tolerance : float, most that the times of a pair differ [s]
+    ``tolerance`` is the most that the times of a pair of poses differ [s].
     """
     estimated, true = _paired_poses(estimate, truth, tolerance)
     errors = between(between(true[0], true), between(estimated[0], estimated))
@@ -49,11 +39,7 @@ def relative_error(estimate, truth, steps=1, tolerance=TOLERANCE):
     x*_{i+k})⁻¹ (x_i⁻¹ x_{i+k}). Returns a TrajectoryError. Raises ValueError if the times do not
     match, see :func:`absolute_error`, or for too few poses.
 
-    Parameters
-    ----------
-    estimate, truth : Trajectory, times [s], poses [m, m, rad]
-    steps : int, k
-    tolerance : float, most that the times of a pair differ [s]
+    ``steps`` is k.
     """
     estimated, true = _paired_poses(estimate, truth, tolerance)
     if not 1 <= steps < len(true):

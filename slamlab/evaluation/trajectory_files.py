@@ -10,24 +10,16 @@ from slamlab.evaluation.text_table import TextTable
 from slamlab.evaluation.trajectory_formats import FORMATS, LATEST, columns_of
 from slamlab.files import SourceError, reason
 from slamlab.readings import Trajectory
-from slamlab.sources.log_units import headings_in_degrees
+from slamlab.sources.log_units import TIME_UNITS, headings_in_degrees
 
 EARLIEST = 9e8  # least timestamp of a log in seconds since 1970 (1998)
 W_AT = {"TUM": (-1, "first"), "EuRoC": (1, "last")}  # alternative position of w
-SUBUNITS = {"milliseconds": 1e-3, "microseconds": 1e-6, "nanoseconds": 1e-9}
 # with a tenth of other damage, the file has another format
 EXPECTED = "rows that are not finite", "quaternions of length 0", "file truncated"
 
 
 def save_tum(trajectory, path):
-    """Save a trajectory as a TUM file that contains all digits of times and positions. Raises
-    SourceError.
-
-    Parameters
-    ----------
-    trajectory : Trajectory, times [s], poses [m, m, rad]
-    path : str or Path
-    """
+    """Save a Trajectory as TUM with all digits of times and positions. Raises SourceError."""
     x, y, theta = trajectory.poses.T
     zero = np.zeros(len(trajectory))
     half = theta / 2
@@ -108,8 +100,8 @@ def _timed(table, columns, got, notes):
 
 def _unit(times, notes):
     """Return the factor to seconds if timestamps since 1970 have another unit, otherwise 1."""
-    for unit, factor in SUBUNITS.items():
-        if times.min() * factor >= EARLIEST and times.max() * factor <= LATEST:
+    for factor, unit in TIME_UNITS.items():
+        if factor < 1 and times.min() * factor >= EARLIEST and times.max() * factor <= LATEST:
             notes.append(f"its timestamps are {unit} since 1970, multiplied by {factor:g}")
             return factor
     if times.max() > LATEST:

@@ -2,7 +2,7 @@
 
 Read in this order:
 
-- ``base``: Source; ``disk_buffer``: parsed readings in memory or on disk
+- ``base``: Source; ``disk_buffer``: parsed readings in memory or on disk; ``log_units``
 - ``opener``: open; ``unsupported_formats``; ``public_datasets`` and their
   ``downloading``; ``calibration_overrides``: mounting, field of view and units set by the user
 - ``simulated_robot``, ``landmark_runs``, ``arena_runs``, ``handheld_lidar``: simulations with

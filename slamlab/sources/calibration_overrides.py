@@ -12,14 +12,9 @@ class CalibrationOverrides:
     """Calibration values that replace those of a source; none by default. Raises SourceError if a
     number is out of range.
 
-    Parameters
-    ----------
-    upside_down : bool, whether the lidar is mounted upside down
-    lidar_yaw : float, yaw of the lidar relative to the robot, counter-clockwise [degree]
-    field_of_view : float, of the lidar [degree], or None for no override
-    range_scale, odometry_scale : float, units of the ranges and of the odometry's distances [m]
-    turn_scale : float, unit of the odometry's rotations [rad]
-    ignore_odometry : bool, whether to remove the odometry
+    ``lidar_yaw`` is counter-clockwise relative to the robot [degree], ``field_of_view`` is in
+    degrees; the scales are the units of the ranges and of the odometry's distances [m] and turns
+    [rad].
     """
 
     upside_down: bool = False

@@ -18,12 +18,13 @@ from slamlab.sources.base import LogFile
 from slamlab.sources.carmen_beam_angles import runs_clockwise
 from slamlab.sources.carmen_geometry import LaserGeometry
 from slamlab.sources.carmen_messages import LASERS, OTHERS, POSES, parse_pose, parse_scan
-from slamlab.sources.log_units import TIME_UNITS, headings_in_degrees, time_unit, usual_period
+from slamlab.sources.log_units import TIME_UNITS, headings_in_degrees, time_unit
 
 KNOWN = {*LASERS, *POSES, b"PARAM", b"SYNC"}
 SWITCHES = {b"on": 1.0, b"yes": 1.0, b"true": 1.0}  # values of PARAM lines that are words
 MAX_PAIRS = 500  # scans by which the direction of rotation is determined
 MAX_PERIOD = 10.0  # of scans; longer ones are in another unit [s]
+STAMPS = np.array([1, 1, 0, 0, 0])  # the timestamps of a row of poses
 
 
 class CarmenLog(LogFile):
@@ -58,9 +59,7 @@ class CarmenLog(LogFile):
                 else:
                     self.damage[str(kind)] += 1
         if not lasers:
-            raise self._nothing_usable(
-                "readable scan of a laser (FLASER, ROBOTLASER1, RAWLASER1 …)"
-            )
+            raise self._nothing_usable("readable scan of a laser (FLASER, ROBOTLASER1 …)")
         odom, *truth = (np.array(poses[name]).reshape(-1, 5) for name in POSES)
         if not np.any(odom[:, 2:] != odom[:1, 2:]):
             odom = odom[:0]
@@ -147,10 +146,10 @@ class CarmenLog(LogFile):
             )
         self._clock = carmen_lasers.choose_clock(self._lasers, odom)
         self._times, self._order, self._used = carmen_lasers.merge(self._lasers, self._clock)
-        self._tick = time_unit(usual_period(self._times), 0.0, MAX_PERIOD) or 1.0
+        self._tick = time_unit(self._times, 0.0, MAX_PERIOD) or 1.0
         if self._tick != 1.0:
             self.notes.append(f"the timestamps are read as {TIME_UNITS[self._tick]}")
-            self._times, odom = self._times * self._tick, self._in_seconds(odom)
+            self._times, odom = self._times * self._tick, odom * self._tick**STAMPS
         if self.has_odometry and not self._own_poses:
             rows, times = carmen_lasers.remove_clock_jumps(odom, self._clock, self._times)
             stamps, poses = carmen_lasers.sort_by_time(rows, self._clock)
@@ -160,9 +159,6 @@ class CarmenLog(LogFile):
         backwards = np.diff(self._times[self._used]) < 0
         if backwards.any():
             self.damage["timestamps that run backwards"] += int(backwards.sum())
-
-    def _in_seconds(self, rows):
-        return rows * [self._tick, self._tick, 1, 1, 1]
 
     def _find_geometry(self):
         """Find the field of view, mounting and maximum range of the log's laser."""
@@ -188,11 +184,10 @@ class CarmenLog(LogFile):
             except ValueError as error:
                 raise SourceError(f"{self.name}: {error}. Correct the PARAM lines") from None
             self._discard(unspecified & ~np.isin(lengths, usable), "scans of another length")
-        rows = list(
-            islice(self._messages(), MAX_PAIRS if self._geometry.declared_upside_down else 1)
-        )
+        flipped = self._geometry.declared_upside_down
+        rows = list(islice(self._messages(), MAX_PAIRS if flipped else 1))
         angles = self._geometry.angles(rows[0][1])
-        if self._geometry.declared_upside_down and self.has_odometry:
+        if flipped and self.has_odometry:
             # CARMEN reverses the ranges of such a laser before logging
             scans = [(m.ranges, self._robot_pose(row, m)) for row, m in rows]
             self._geometry.clockwise = runs_clockwise(scans, angles)
@@ -209,7 +204,7 @@ class CarmenLog(LogFile):
     def _find_truth(self, truth):
         if len(truth) < 2:
             return
-        times, poses = carmen_lasers.sort_by_time(self._in_seconds(truth), self._clock)
+        times, poses = carmen_lasers.sort_by_time(truth * self._tick**STAMPS, self._clock)
         known = (self._times >= times[0]) & (self._times <= times[-1]) & self._used
         at = np.unique(self._times[known])
         if len(at):

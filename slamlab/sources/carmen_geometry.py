@@ -30,21 +30,11 @@ SATURATION_DISTANCE = 3.0  # least ratio to the median of the other ranges; belo
 
 
 class LaserGeometry:
-    """Geometry of one laser, from a sample of its scans and the PARAM lines.
+    """Geometry of one laser (1 front, 2 rear), from a sample of ScanMessages and the numbers of the
+    PARAM lines: ``unit`` of the ranges [m], ``mount`` (3,) on the robot, ``range_max`` [m].
 
-    Parameters
-    ----------
-    params : dict of the PARAM lines: numbers by name
-    laser : int, 1 for the front laser, 2 for the rear laser
-    labelled : bool, whether the first pose of a message is certainly the laser's pose
-    sample : list of ScanMessage
-    notes : list, to which sentences about missing or contradictory data are appended
-
-    Attributes
-    ----------
-    unit : float, of the ranges [m]
-    mount : (3,) pose of the laser on the robot
-    range_max : float [m]
+    ``labelled``: whether the first pose of a message is certainly the laser's pose. Sentences about
+    missing or contradictory data are appended to ``notes``.
     """
 
     def __init__(self, params, laser, labelled, sample, notes):
@@ -138,11 +128,8 @@ def _unit(ranges):
 def mounting(lasers, robots, offsets, labelled):
     """Return the mounting (extrinsic calibration): laser pose (3,) on the robot, or None.
 
-    Parameters
-    ----------
-    lasers, robots : (n, 3) poses, NaN for a message without a pose
-    offsets : forward, sideways and angular offset of PARAM lines [m, m, rad or degree], or None
-    labelled : bool, whether ``lasers`` are certainly laser poses, not results in another frame
+    ``lasers`` and ``robots`` (n, 3) are NaN for a message without a pose; ``offsets`` of the PARAM
+    lines [m, m, rad or degree] or None. ``labelled``: ``lasers`` are certainly poses of the laser.
     """
     given = None if offsets is None else np.array(offsets, dtype=float)
     if given is not None and abs(given[2]) > RADIANS:

@@ -35,17 +35,9 @@ def fetch(name, origin="", folder=None, progress=lambda percent: None):
     """Fetch a public recording, unless it is there already. Returns (path, whether the file was
     fetched now).
 
-    Parameters
-    ----------
-    name : str, one of RECORDINGS
-    origin : str, folder or address that has the files; by default their published addresses
-    folder : Path, where to write; by default the data folder
-    progress : callable of the part that has arrived [%]
-
-    Raises
-    ------
-    SourceError : the file could not be fetched; a file that was there is unchanged
-    ExtraMissing : pooch is not installed
+    ``origin`` is a folder or address that has the files, by default their published addresses;
+    ``folder`` is by default the data folder; ``progress`` is called with the arrived part [%].
+    Raises SourceError, and leaves a file that was there unchanged; ExtraMissing without pooch.
     """
     published = RECORDINGS[name]
     path = (folder or data_folder()) / published.file

@@ -6,15 +6,11 @@ TIME_UNITS = {1.0: "seconds", 1e-3: "milliseconds", 1e-6: "microseconds", 1e-9: 
 ALONG = 0.8  # least mean resultant length of headings along the path [1]
 
 
-def usual_period(times):
-    """Return the median of the positive steps of timestamps (n,), or 0."""
+def time_unit(times, least, most):
+    """Return the first of TIME_UNITS [s] in which the usual step of timestamps (n,) is from
+    ``least`` to ``most`` seconds, or None."""
     steps = np.diff(times)
-    return float(np.median(steps[steps > 0])) if (steps > 0).any() else 0.0
-
-
-def time_unit(period, least, most):
-    """Return the first of TIME_UNITS [s] in which a period is from ``least`` to ``most`` seconds,
-    or None."""
+    period = np.median(steps[steps > 0]) if (steps > 0).any() else 0.0
     return next((unit for unit in TIME_UNITS if least <= period * unit <= most), None)
 
 

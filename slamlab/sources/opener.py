@@ -22,7 +22,7 @@ LOGS = ReadingLog, CarmenLog, BreezySlamLog, RplidarText  # tried in this order
 
 def open(spec, rng=None, carried=False):
     """Open a source of readings; the format of a file is detected from its content. Returns a
-    Source.
+    Source. Raises SourceError, or ExtraMissing without ``rosbags``.
 
     Parameters
     ----------
@@ -31,17 +31,10 @@ def open(spec, rng=None, carried=False):
         ``devices:LIDAR_PORT,EMIR_PORT``, or another prefix of LIDARS; ``emulated:WORLD``
     rng : numpy.random.Generator for simulations; seed 0 by default
     carried : bool, whether the emulated lidar is hand-held in a flat, without a robot
-
-    Raises
-    ------
-    SourceError
-    ExtraMissing : ``rosbags`` is not installed
     """
     spec, rng = str(spec), np.random.default_rng(0) if rng is None else rng
     if carried and not spec.startswith(EMULATED_PREFIX):
-        raise SourceError(
-            f"only an emulated lidar can be hand-held, as in emulated:flat, not {spec}"
-        )
+        raise SourceError(f"only an emulated lidar can be hand-held (emulated:flat), not {spec}")
     if spec.startswith(SIMULATION_PREFIX):
         return simulation(spec.removeprefix(SIMULATION_PREFIX), rng)
     if spec.startswith(tuple(LIDARS)):

@@ -112,14 +112,8 @@ class ReadingLog(LogFile):
 
 
 def write(source, path):
-    """Write readings to a reading log and return their number. Raises SourceError if the file
-    cannot be written.
-
-    Parameters
-    ----------
-    source : Source
-    path : str or Path; a name that ends in ``.gz`` means compression
-    """
+    """Write the readings of a Source to a reading log, compressed if its name ends in ``.gz``.
+    Returns their number. Raises SourceError if the file cannot be written."""
     readings, buffer = iter(source), []
     for reading in readings:
         buffer.append(reading)

@@ -120,15 +120,14 @@ class LaserMotion:
         if poses.climb > max(MAX_CLIMB, poses.extent):
             along = f"moves {poses.climb:.4g} m along z and {poses.extent:.4g} m in the plane"
             raise SourceError(f"odometry ({poses.name}) {along}; {IN_THE_PLANE}")
+        why = ""
         if poses.has_two_publishers():
-            what = "its poses jump back and forth, as if two nodes published them"
-            self._note(f"odometry {poses.name} is not used: {what}; record it with one node")
-            return False
-        if poses.stands_still():
-            what = "its pose never changes; check the encoders, and whether the driver sets it"
-            self._note(f"odometry {poses.name} is not used: {what}")
-            return False
-        return True
+            why = "its poses jump back and forth, as if two nodes published them; use one node"
+        elif poses.stands_still():
+            why = "its pose never changes; check the encoders, and whether the driver sets it"
+        if why:
+            self._note(f"odometry {poses.name} is not used: {why}")
+        return not why
 
     def _static(self, laser, stamps):
         """Return a Motion without poses: only the laser's mounting on the robot is known."""

@@ -56,11 +56,8 @@ class RplidarText(LogFile):
         self.damage.clear()
         self._ends, held, number = array("d"), None, 0
         for number, turn in enumerate(self._revolutions(self._valid(self._points(file.lines())))):
-            if (
-                held is not None
-                and not self._add(number - 1, held, inner=number > 1)
-                and number > 1
-            ):
+            added = held is None or self._add(number - 1, held, inner=number > 1)
+            if not added and number > 1:
                 self._count_lost("incomplete revolutions", self._number)
             held = np.array(turn)
         if held is not None:  # the last revolution, like the first, is seldom complete
@@ -162,7 +159,6 @@ class RplidarText(LogFile):
         self._unit, self._period = None, DEFAULT_PERIOD
         periods = np.diff(self._ends)
         if len(periods) and np.isfinite(periods).all() and (periods > 0).all():
-            period = float(np.median(periods))
-            self._unit = time_unit(period, *PERIODS)
+            self._unit = time_unit(self._ends, *PERIODS)
             if self._unit is not None:
-                self._period = period * self._unit
+                self._period = float(np.median(periods)) * self._unit

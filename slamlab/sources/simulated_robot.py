@@ -117,12 +117,8 @@ def simulation(world_name, rng, lidar=None, robot=None, tour=True):
     """Create a simulated run: a Simulation, a HandheldLidar, a LandmarkRun or an ArenaRun. Raises
     SourceError if the name is unknown.
 
-    Parameters
-    ----------
-    world_name : str, one of NAMES
-    rng : numpy.random.Generator
-    lidar, robot : Scanner, DifferentialDrive; by default those of the world
-    tour : bool, whether to follow the route of the world; False: one reading, then ``drive``
+    ``lidar`` (Scanner) and ``robot`` (DifferentialDrive) are by default those of the world. Without
+    ``tour`` the robot does not follow the world's route: one reading, then ``drive``.
     """
     if world_name not in NAMES:
         raise SourceError(f"there is no simulation {world_name!r}; available: {', '.join(NAMES)}")
