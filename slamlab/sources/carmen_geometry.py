@@ -44,10 +44,7 @@ class LaserGeometry:
         ranges = [message.ranges for message in sample]
         self.unit = _unit(np.concatenate(ranges))
         if self.unit != 1.0:
-            notes.append(
-                "the ranges are too large for metres, so they are read as millimetres; if they are "
-                "in centimetres, add --range-scale 10"
-            )
+            notes.append("ranges are read as millimetres; for centimetres, add --range-scale 10")
         self.mount = self._mounting(laser, labelled, sample)
         given = [message.range_max for message in sample if message.range_max > 0]
         limit = self._param("robot_{}_max") or RANGE_MAX
