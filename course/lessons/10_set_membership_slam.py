@@ -832,7 +832,7 @@ except EmptyIntersection as error:
 # The estimator `bor` ignores such a measurement, shows *lost* in its status, and gives no guarantee
 # from then on. There are two solutions: widen all bounds and process the log again; or assume that a
 # few of many measurements are outliers, and keep the positions that agree with all measurements except
-# these few (Jaulin's *relaxed intersection*).
+# these few (Jaulin's *relaxed intersection*, which you compute in the exercise).
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## Data association by overlap
@@ -1208,8 +1208,8 @@ print({NAMED[name]: f"rms error {100 * error:.0f} cm" for name, error in steady.
 # The sections below this one are optional.
 #
 # **Exercise:** [10 · Set-membership SLAM: the BOR filter](../exercises/ex10_set_membership_slam.ipynb).
-# You program the intervals, the edges and the contraction of the heading, contract a box with a range
-# alone, and make the boxes as small as possible.
+# You program the intervals, the edges and the contraction of the heading, compute what is guaranteed
+# if some measurements are outliers, and make the boxes as small as possible.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Deeper: the dependency problem

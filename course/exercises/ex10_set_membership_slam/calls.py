@@ -2,18 +2,19 @@
 
 import numpy as np
 
-from classroom.exercises.function_calls import FunctionCall, argument_rows, to_shaped_array
+from classroom.exercises.function_calls import FunctionCall, argument_rows
 from classroom.exercises.function_calls.several_values import stack_values
 
 
-def call_ring(functions, inputs):
-    """Call "ring" with each row; return {"left": (n,) 0 for None, "box": (n, 4)}.
-    Raise StudentError unless "ring" returns None or four numbers.
+def call_relaxed(functions, inputs):
+    """Call "relaxed" with each row; return {"left": (m,) 0 for None, "box": (m, 4),
+    "outliers": (m, n)}. Raise StudentError unless "relaxed" returns None, or a box and n flags.
     """
-    found = [functions["ring"](*row) for row in argument_rows(inputs)]
-    left = np.array([box is not None for box in found], dtype=float)
-    boxes = [np.zeros(4) if box is None else to_shaped_array(box, "ring", (4,)) for box in found]
-    return {"left": left, "box": np.array(boxes).reshape(-1, 4)}
+    found = [functions["relaxed"](boxes, int(q)) for boxes, q in argument_rows(inputs)]
+    n = inputs["boxes"].shape[1]
+    values = [(np.zeros(4), np.zeros(n)) if each is None else each for each in found]
+    left = np.array([float(each is not None) for each in found])
+    return {"left": left} | stack_values(values, "relaxed", {"box": (4,), "outliers": (n,)})
 
 
 def call_narrow(functions, inputs):
@@ -28,6 +29,6 @@ CALLS = {
     "10-predict": FunctionCall(("predict",)),
     "10-edges": FunctionCall(("edges",)),
     "10-heading": FunctionCall(("sharpen",)),
-    "10-ring": FunctionCall(("ring",), run=call_ring),
+    "10-relaxed": FunctionCall(("relaxed",), run=call_relaxed),
     "10-narrow": FunctionCall(("narrow",), run=call_narrow, seconds=20.0),
 }

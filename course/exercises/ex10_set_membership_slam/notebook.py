@@ -2,9 +2,9 @@
 # # Exercise 10 · Set-membership SLAM: the BOR filter
 #
 # **You will be able to** write the steps of a set-membership filter: the prediction of a box, the
-# edges of a measurement, and the contraction of a heading, also across ±π. You will derive how a
-# range without a bearing contracts a box, and find out how small boxes can be without excluding a
-# feasible pose.
+# edges of a measurement, and the contraction of a heading, also across ±π. You will compute what is
+# guaranteed if some measurements are outliers, and find out how small boxes can be without excluding
+# a feasible pose.
 #
 # **60 minutes. Before:** lesson [10 · Set-membership SLAM: the BOR filter](../notebooks/10_set_membership_slam.ipynb).
 #
@@ -244,104 +244,98 @@ def sharpen(heading, robot, box, bearing, bound):
 check("10-heading")
 
 # %% [markdown]
-# ## 4 · A range without a bearing
+# ## 4 · Measurements with outliers
 #
-# A sonar, or the time of flight of a radio signal, measures the range of a landmark but no bearing.
-# The range is `r`, with an error of at most `bound`. The possible positions now fill a whole ring,
-# so there is no middle direction for the edges. But the question of (10.9) also helps here: *which
-# point of the other box allows the most?*
-#
-# Let $(\Delta x, \Delta y)$ be the position of the landmark minus the position of the robot. The
-# range gives the constraint
-#
-# $$(r - d_r)^2 \;\le\; \Delta x^2 + \Delta y^2 \;\le\; (r + d_r)^2,$$
-#
-# where $d_r$ is `bound`. If $r - d_r$ is negative, replace it by 0. The two boxes give an interval
-# for $\Delta x$ and an interval for $\Delta y$, and $\Delta x$ and $\Delta y$ are independent of
-# each other.
+# The robot measures $n$ known landmarks. Each measurement alone gives a box that contains the robot,
+# if its errors are within their bounds. A measurement whose box does not contain the robot is an
+# **outlier**. A single outlier can exclude the robot from the intersection of all boxes, or leave no
+# intersection. So we assume that *at most $q$* of the $n$ measurements are outliers. Then the robot
+# is in at least $n - q$ of the boxes. All positions that are in at least $n - q$ boxes form the
+# **relaxed intersection** (Jaulin 2009).
 
 # %%
 ask(
-    "ex10-ring",
-    "A robot is at the origin, and the range is exactly 2 m. The landmark is in the box "
-    "$-3 \\le x \\le 3$, $0 \\le y \\le 1$. **Which is the smallest box after the contraction?**",
+    "ex10-relaxed",
+    "Six measurements have a relaxed intersection for $q = 1$ that is not empty. **What is guaranteed?**",
     {
-        "$-3 \\le x \\le 3$, $0 \\le y \\le 1$: a range has no direction": "the direction is unknown, but a landmark at $x = 3$ m is at least 3 m away, not 2 m.",
-        "$-2 \\le x \\le 2$, $0 \\le y \\le 1$": "two arcs of the circle cross the box, one on each side, and the new box must contain both.",
-        "$1.73 \\le x \\le 2$, $0 \\le y \\le 1$": "this box contains only the arc on the right. The circle also crosses the box on the left.",
+        "At most one of the six measurements is an outlier.": "the boxes of two outliers can meet the other boxes by chance, so the relaxed intersection need not be empty.",
+        "The robot is in the relaxed intersection.": "this is true only under the assumption. If two measurements are outliers, the robot is in four boxes only.",
+        "If at most one measurement is an outlier, the robot is in the relaxed intersection.": "the robot is then in at least five boxes. Nothing in the boxes proves the assumption.",
+        "Five measurements are correct, and their boxes are those that meet.": "it is possible that all six measurements are correct, or that other five boxes meet elsewhere.",
     },
-    right="$-2 \\le x \\le 2$, $0 \\le y \\le 1$",
+    right="If at most one measurement is an outlier, the robot is in the relaxed intersection.",
 )
 
 # %% [markdown]
-# For which $\Delta y$ is $|\Delta x|$ largest, and for which $\Delta y$ is it smallest? $\Delta x$
-# can be negative or positive, and the robot can be anywhere in its box. Which intervals can the
-# landmark's $x$ therefore have?
+# The relaxed intersection can have several pieces, and it need not be a box. A filter that stores one
+# box takes the smallest box around all pieces.
 #
-# **Your task.** A point of `box` is feasible if its distance from some point of `robot` agrees with
-# the range. Return the smallest box that contains all feasible points of `box`. If no point is
-# feasible, return `None`. The two boxes may overlap. `r` and `bound` are at least 0, and `r` may be
-# less than `bound`. The limit circles never just touch a box. The check allows an error of
-# $10^{-7}$ m for each side.
+# **Your task.** Return the smallest box that contains the whole relaxed intersection. Also return $n$
+# flags: true if the measurement is an outlier *for certain*, wherever in the relaxed intersection the
+# robot is. If the relaxed intersection is empty, more than $q$ measurements are outliers: return
+# `None` in place of both.
+#
+# $0 \le q < n \le 30$. Thirty boxes have 30 million subsets of twenty boxes, too many to try all: the
+# check stops after 10 s. A box contains its sides. The check allows an error of $10^{-7}$ m for each
+# side, and it has boxes with relaxed intersections of all kinds: of one or several pieces, or empty,
+# with and without certain outliers.
 
 
 # %%
-def ring(robot, box, r, bound):
-    """Contract the box of a landmark by a range.
+def relaxed(boxes, q):
+    """Box around all positions that are in all boxes except q, and the certain outliers.
 
-    robot, box : (4,) x_min, x_max, y_min, y_max of the robot and of the landmark [m]
-    r, bound : float, the range, and its largest error [m]
-    returns (4,) [m], or None if no point agrees
+    boxes : (n, 4) x_min, x_max, y_min, y_max [m];  q : int, largest number of outliers
+    returns box (4,) [m], outliers (n,) of bool; or None if more than q are outliers
     """
     ### BEGIN SOLUTION
-    near, far = max(r - bound, 0), r + bound
+    x_min, x_max, y_min, y_max = np.transpose(boxes)
 
-    def apart(k):
-        low, high = box[k] - robot[k + 1], box[k + 1] - robot[k]
-        return max(0, low, -high), max(-low, high)
+    def relaxed_corners(xs, ys):
+        """Points (x, y) of the relaxed intersection, and in which boxes they are."""
+        points = np.array([(x, y) for x in xs for y in ys])
+        x, y = points.T[..., None]
+        within = (x_min <= x) & (x <= x_max) & (y_min <= y) & (y <= y_max)
+        kept = within.sum(axis=1) >= len(boxes) - q
+        return points[kept], within[kept]
 
-    def left_along(k, across):
-        least, most = apart(across)
-        if least > far:
-            return None
-        # |dx| is largest where |dy| is smallest, and smallest where |dy| is largest
-        outer, inner = np.sqrt(far**2 - least**2), np.sqrt(max(near**2 - most**2, 0))
-        sides = (robot[k] - outer, robot[k + 1] - inner), (robot[k] + inner, robot[k + 1] + outer)
-        pieces = [(max(low, box[k]), min(high, box[k + 1])) for low, high in sides]
-        kept = [(low, high) for low, high in pieces if low <= high]
-        return (kept[0][0], kept[-1][1]) if kept else None
-
-    x, y = left_along(0, 2), left_along(2, 0)
-    return None if x is None or y is None else np.array([*x, *y])
+    # each piece is an intersection of boxes, so its corners are on sides of perhaps two boxes
+    low, within = relaxed_corners(x_min, y_min)
+    high, _ = relaxed_corners(x_max, y_max)
+    if not len(low):
+        return None
+    box = np.array([low[:, 0].min(), high[:, 0].max(), low[:, 1].min(), high[:, 1].max()])
+    return box, ~within.any(axis=0)
     ### END SOLUTION
 
 
 # %%
-check("10-ring")
+check("10-relaxed")
 
 # %% [markdown]
-# In the figure a ring crosses the box twice. The dots are positions of the landmark that agree with
-# the range for some position of the robot. All dots must be in your box, and some should be near
-# each side.
+# In the figure two of six measurements are outliers, and $q = 2$. The dots are positions that are in
+# at least four boxes. All dots must be in your box, and some should be near each side.
 
 
 # %%
 @attempt
 def _():
-    rng, robot, box = np.random.default_rng(4), [-0.3, 0.3, -0.2, 0.2], [-2.6, 2.8, 0.6, 1.6]
-    kept = ring(np.array(robot), np.array(box), 2.0, 0.1)
-    stands, place = (rng.uniform(b[::2], b[1::2], (20_000, 2)) for b in (robot, box))
-    agree = place[np.abs(np.hypot(*(place - stands).T) - 2.0) <= 0.1]
-    fig, ax = views.boxes.scene("Your ring", (-3.6, 3.8, -1.2, 3.4), size=(8, 5.4))
-    views.draw(ax, Points("sample", agree), label="agree with the range")
-    views.draw(ax, Boxes("robot", [robot]))
-    views.draw(ax, Boxes("before", [box]))
-    if kept is not None:
-        views.draw(ax, Boxes("after", [kept]), color=views.COLOURS["corrected"], linewidth=2.5)
+    rng, robot, half = np.random.default_rng(5), np.zeros(2), np.array([0.6, 0.4])
+    middles = robot + rng.uniform(-0.9, 0.9, (6, 2)) * half
+    middles[:2] += [[1.1, 0.3], [-0.4, 0.9]]
+    boxes = np.stack([middles - half, middles + half], axis=2).reshape(6, 4)
+    found = relaxed(boxes.copy(), 2)
+    points = rng.uniform(-2, 2, (20_000, 2))
+    inside = (boxes[:, ::2] <= points[:, None]) & (points[:, None] <= boxes[:, 1::2])
+    agree = points[inside.all(axis=2).sum(axis=1) >= 4]
+    fig, ax = views.boxes.scene("Your box", (-1.8, 2.2, -1.2, 1.6), size=(8, 5.4))
+    views.draw(ax, Points("sample", agree), label="in four boxes")
+    views.draw(ax, Boxes("before", boxes), label="six measurements")
+    if found is not None:
+        views.draw(ax, Boxes("yours", [found[0]]), color=views.COLOURS["corrected"], linewidth=2.5)
+    views.draw(ax, Points("truth", [robot]), label="true position")
     views.legend(ax, loc="upper right")
-    views.show(
-        fig, alt="Points on two arcs within a box, and the smaller box that your ring returns."
-    )
+    views.show(fig, alt="Six boxes, the positions that are in four of them, and your box.")
 
 
 # %% [markdown]
