@@ -121,21 +121,21 @@ check("16-loop")
 # ## 3 · Milestone: report a consistent covariance
 #
 # The world is a corridor again, 16.5 m long, and now the check reads `pose` and `covariance` after each reading. There
-# are twelve runs of 34 readings, and in each run the scans of readings 10 to 29 (counted from 0) are lost. The odometry
-# increment of each reading has independent errors with standard deviations of 8 mm in $x$, 4 mm in $y$ and 0.035 rad in
-# $\theta$. The check places the true trajectory so that it begins at your first pose, and computes the errors of `pose`
-# along the axes of your frame. From the second reading on, each covariance must be positive definite.
+# are twelve runs of 34 readings, and in each run the scans of readings 10 to 29 (counted from 0) are lost. Two of them
+# are repeated with all scans. The odometry increment of each reading has independent errors with standard deviations of
+# 8 mm in $x$, 4 mm in $y$ and 0.035 rad in $\theta$. The check places the true trajectory so that it begins at your
+# first pose, and computes the errors of `pose` along the axes of your frame. From the second reading on, each covariance
+# must be positive definite.
 #
 # | required | points |
 # | --- | --- |
-# | in each run, the standard deviation of the position, $\sqrt{P_{xx} + P_{yy}}$, grows by a factor of at least 2 from the first reading without a scan to the last | 1, only together with the next row |
-# | the mean NEES of all runs lies between 0.25 and 8 in readings 1 to 9, and also in readings 27 to 29; and in readings 1 to 9 the mean position error is less than 0.95 times that of odometry | 2 |
+# | in each of the twelve runs, the standard deviation of the position, $\sqrt{P_{xx} + P_{yy}}$, grows by a factor of at least 2 from reading 10 to reading 29; there it is at least 1.5 times that of the same run with all scans | 1, only together with the next row |
+# | the mean NEES of the twelve runs lies between 0.25 and 8 in readings 1 to 9, and also in readings 27 to 29; and in readings 1 to 9 the mean position error is less than 0.95 times that of odometry | 2, only together with the row above |
 #
-# The expected NEES of a consistent covariance is 3. The interval is wide because there are only twelve runs, and because
-# the errors of neighbouring readings are correlated. But the squared errors grow several hundredfold while the scans
-# are lost, so no constant covariance fits. A consistent covariance of odometry alone is not enough either. With the
-# 0.5 points for unchanged arguments, this milestone has 3.5 points. In a contest an inconsistent covariance costs up to
-# 20 points, and a missing covariance costs none.
+# The expected NEES of a consistent covariance is 3. The interval is wide because there are only twelve runs, and the
+# errors of neighbouring readings are correlated. A constant covariance earns nothing, and a consistent covariance of
+# odometry alone is not enough either. With the 0.5 points for unchanged arguments, this milestone has 3.5 points. In a
+# contest an inconsistent covariance costs up to 20 points, and a missing covariance costs none.
 
 # %%
 check("16-sure")
