@@ -276,9 +276,13 @@ ask(
 # `None` in place of both.
 #
 # $0 \le q < n \le 30$. Thirty boxes have 30 million subsets of twenty boxes, too many to try all: the
-# check stops after 10 s. A box contains its sides. The check allows an error of $10^{-7}$ m for each
-# side, and it has boxes with relaxed intersections of all kinds: of one or several pieces, or empty,
-# with and without certain outliers.
+# check stops after 10 s. A box contains its sides.
+#
+# | judged, in relaxed intersections of one or several pieces, or empty | points |
+# | --- | --- |
+# | the box, with an error of at most $10^{-7}$ m for each side | 2 |
+# | all flags, also where an outlier meets the box that you return, but no piece | 1.5 |
+# | `None` if the relaxed intersection is empty, and only then | 0.5 |
 
 
 # %%
