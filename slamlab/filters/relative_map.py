@@ -9,12 +9,3 @@ def relative_vector(mak, i, j):
     D = np.hstack([-np.eye(2), np.eye(2)])
     p_i, p_j = mak.x[rows].reshape(2, 2)
     return mak.kind.minus(p_j, p_i), D @ mak.block(rows) @ D.T
-
-
-def relative_map(mak, pairs):
-    """Return the relative vectors (k, 2) [m] of id pairs (k, 2), and the covariances (k, 2, 2)."""
-    found = [relative_vector(mak, i, j) for i, j in pairs]
-    return (
-        np.array([d for d, _ in found]).reshape(-1, 2),
-        np.array([P for _, P in found]).reshape(-1, 2, 2),
-    )

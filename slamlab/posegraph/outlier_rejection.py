@@ -12,17 +12,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from slamlab.posegraph import outlier_search
 from slamlab.posegraph.optimisation import optimise
-from slamlab.posegraph.outlier_search import (
-    MORE_STEPS,
-    VIOLATED,
-    acceptable_chi2,
-    costliest_edges,
-    drift_distances,
-    estimated_scale,
-    search,
-    with_readmitted,
-)
 from slamlab.posegraph.spanning_tree import SpanningTree
 
 WIDE = 100.0  # multiple of Φ that a search allows at first [1]
@@ -73,12 +64,12 @@ def _ranked(results, phi):
 def _unchanged(problem, poses, accepted, trusted, phi, settings):
     """Optimise with the edges accepted before; return an Optimum of None if this does not converge,
     or if any edge's χ² calls for the opposite decision."""
-    few = min(settings[0], MORE_STEPS), settings[1]
+    few = min(settings[0], outlier_search.MORE_STEPS), settings[1]
     found, optimum = optimise(problem.select(accepted), poses, *few)
-    scale = 1.0 if accepted.all() else estimated_scale(problem, found, accepted)
+    scale = 1.0 if accepted.all() else outlier_search.estimated_scale(problem, found, accepted)
     # false loops that bend odometry fit, but odometry does not
     fits = problem.errors(found)[1] <= np.where(
-        trusted, VIOLATED * phi, acceptable_chi2(phi, scale)
+        trusted, outlier_search.VIOLATED * phi, outlier_search.acceptable_chi2(phi, scale)
     )
     if not optimum.converged or (fits != accepted).any():
         return poses, None
@@ -95,13 +86,13 @@ def _searches(problem, poses, fixed, trusted, phi):
     """Yield a Search from each start; no search rejects the ``trusted`` edges."""
     tried = set()
     for share, drifts, factor in STARTS:
-        d2 = drift_distances(problem, poses, fixed, trusted if drifts else None)
+        d2 = outlier_search.drift_distances(problem, poses, fixed, trusted if drifts else None)
         limit = 2 * phi if drifts else factor * phi if factor > 1 else np.inf
         chosen = (d2 <= min(limit, np.quantile(d2[~trusted], share))) & ~trusted
         if (start := (chosen.tobytes(), factor)) not in tried:
             tried.add(start)
-            found = search(problem, poses, trusted, chosen, factor, phi)
-            yield with_readmitted(problem, found, fixed, trusted, phi)
+            found = outlier_search.search(problem, poses, trusted, chosen, factor, phi)
+            yield outlier_search.with_readmitted(problem, found, fixed, trusted, phi)
 
 
 def _pruned(problem, found, fixed, trusted, phi):
@@ -109,12 +100,16 @@ def _pruned(problem, found, fixed, trusted, phi):
     the cost."""
     for _ in range(PRUNINGS):
         numbers, some = np.flatnonzero(found.accepted), problem.select(found.accepted)
-        limit, chosen = acceptable_chi2(phi, found.scale), found.accepted & ~trusted
-        chosen[costliest_edges(some, found.poses, numbers, trusted, found.chi2, limit)] = False
-        if (chosen == found.accepted & ~trusted).all():
+        limit = outlier_search.acceptable_chi2(phi, found.scale)
+        costliest = outlier_search.costliest_edges(
+            some, found.poses, numbers, trusted, found.chi2, limit
+        )
+        if not len(costliest):
             break
-        fewer = search(problem, found.poses, trusted, chosen, 1.0, phi)
-        fewer = with_readmitted(problem, fewer, fixed, trusted, phi)
+        chosen = found.accepted & ~trusted
+        chosen[costliest] = False
+        fewer = outlier_search.search(problem, found.poses, trusted, chosen, 1.0, phi)
+        fewer = outlier_search.with_readmitted(problem, fewer, fixed, trusted, phi)
         (best, _), costs = _ranked([found, fewer], phi)
         if best is found or costs[1] - costs[0] < phi:  # one true edge in a hundred costs more
             break
@@ -124,6 +119,6 @@ def _pruned(problem, found, fixed, trusted, phi):
 
 def _opposite(problem, best, fixed, trusted, phi):
     """Search from the edges that the best result rejects and that the drift can explain."""
-    d2 = drift_distances(problem, best.poses, fixed, trusted)
+    d2 = outlier_search.drift_distances(problem, best.poses, fixed, trusted)
     chosen = ~best.accepted & (d2 <= 2 * phi)
-    return search(problem, best.poses, trusted, chosen, 1.0, phi)
+    return outlier_search.search(problem, best.poses, trusted, chosen, 1.0, phi)

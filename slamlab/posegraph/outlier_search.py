@@ -97,8 +97,7 @@ def estimated_scale(problem, poses, accepted):
 
 
 def with_readmitted(problem, found, fixed, trusted, phi):
-    """Readmit the edges that the drift along the accepted edges explains, as long as the cost
-    decreases."""
+    """Readmit edges that the drift along the accepted ones explains, while the cost decreases."""
     for _ in range(READMISSIONS):
         d2 = drift_distances(problem, found.poses, fixed, found.accepted)
         chosen = (found.accepted | (d2 <= phi)) & ~trusted

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from slamlab import models
 from slamlab.filters.compressed_ekf import CompressedEKF
 from slamlab.filters.ekf_slam_filter import MAK
-from slamlab.filters.relative_map import relative_map, relative_vector
+from slamlab.filters.relative_map import relative_vector
 
 Q, R = np.diag([1e-3, 2e-3, 5e-4]), np.diag([0.01, 0.001])
 
@@ -58,5 +58,3 @@ def test_relative_vectors_have_the_covariance_of_the_difference():
     i, j = slice(9, 11), slice(5, 7)
     assert np.allclose(d, mak.x[j] - mak.x[i])
     assert np.allclose(C, P[i, i] - P[i, j] - P[j, i] + P[j, j])
-    many, covariances = relative_map(mak, [(3, 1), (0, 2)])
-    assert np.array_equal(many[0], d) and np.array_equal(covariances[0], C)
