@@ -82,22 +82,6 @@ def test_mapping_equals_the_augmented_filter_with_a_certain_robot():
     assert np.allclose(mak.P[3:, 3:], P, rtol=0, atol=1e-10)
 
 
-def test_the_maps_errors_match_its_covariance():
-    """NEES over many maps, with noise so small that the model is all but linear."""
-    rng = np.random.default_rng(6)
-    noise, nees = rng.multivariate_normal([0, 0], R * 1e-4, (300, 3, 3)), []
-    for run in noise:
-        found = KnownPoseMap()
-        for x, errors in zip(POSES, run, strict=True):
-            for k, z in enumerate(models.h(x, POINTS) + errors):
-                found.update(x, k, z, R * 1e-4)
-        for k, landmark in found.landmarks.items():
-            error = landmark.x - POINTS[k]
-            nees.append(error @ np.linalg.solve(landmark.P, error))
-    # χ² with 2 degrees of freedom: mean 2, variance 4
-    assert abs(np.mean(nees) - 2) < 5 * np.sqrt(4 / len(nees))
-
-
 def localised():
     return belief([0, 0, 0.2], np.eye(3) * 0.1)
 

@@ -101,16 +101,6 @@ def test_the_covariance_of_moved_particles_is_that_of_the_motion():
     np.testing.assert_allclose(cloud.moments.P / scale, Q / scale, atol=0.05)
 
 
-@given(poses)
-def test_a_robot_at_rest_stays_and_a_perfect_robot_follows_odometry(pose):
-    x, rng = np.tile(pose, (3, 1)), np.random.default_rng(0)
-    np.testing.assert_allclose(
-        sample_motion(x, np.zeros(3), ROBOT, rng), np.tile(pose, (3, 1)), atol=1e-12
-    )
-    ends = sample_motion(x, [0.3, -0.1, 0.2], STILL, rng)
-    assert np.ptp(ends, axis=0).max() == 0
-
-
 def test_the_mean_of_headings_round_the_seam_is_on_the_seam():
     rows = np.zeros((2, 3))
     rows[:, 2] = np.pi - 0.1, -np.pi + 0.1
@@ -147,17 +137,6 @@ def test_global_localisation_finds_the_robot_in_its_map(named):
         rng = np.random.default_rng(seed)
         mcl = MCL(uniform(5000, [-4, -5], [4, 4], rng), MAP, rng)
         assert watch(mcl, np.array([0.5, -1.0, 2.0]), 12, rng, named) < 0.3
-
-
-def test_the_same_seed_gives_the_same_particles_and_another_seed_others():
-    def rows(seed):
-        rng = np.random.default_rng(seed)
-        mcl = MCL(uniform(300, [-4, -5], [4, 4], rng), MAP, rng)
-        watch(mcl, np.zeros(3), 5, rng)
-        return mcl.particles.rows
-
-    np.testing.assert_array_equal(rows(5), rows(5))
-    assert not np.array_equal(rows(5), rows(6))
 
 
 def test_one_particle_follows_odometry_and_keeps_its_weight():
