@@ -89,6 +89,55 @@ def test_a_nearly_exact_measurement_leaves_no_negative_variance():
     assert np.linalg.eigvalsh(mak.P)[0] >= 0
 
 
+@given(st.integers(0, 2**32))
+@settings(max_examples=30, deadline=None)
+def test_no_update_loses_information(seed):
+    rng = np.random.default_rng(seed)
+    mak = filled(rng)
+    drive(mak, rng, 3)
+    before = mak.P
+    mak.update([1, 3], seen_again(mak, [1, 3], rng), R)
+    assert np.linalg.eigvalsh(before - mak.P)[0] >= -1e-12 * np.abs(before).max()
+
+
+@given(st.integers(0, 2**32))
+@settings(max_examples=30, deadline=None)
+def test_no_map_block_nor_relative_vector_ever_grows_in_determinant(seed):
+    rng = np.random.default_rng(seed)
+    mak = filled(rng)
+    relative = np.hstack([np.eye(2), -np.eye(2)])
+
+    def determinants():
+        P = mak.P[3:, 3:]
+        pair = np.ix_([0, 1, 4, 5], [0, 1, 4, 5])
+        return np.array(
+            [np.linalg.det(P), np.linalg.det(P[:2, :2]), np.linalg.det(P[pair]),
+             np.linalg.det(relative @ P[pair] @ relative.T)]
+        )  # fmt: skip
+
+    for _ in range(6):
+        before = determinants()
+        drive(mak, rng)
+        assert (determinants() <= before * (1 + 1e-9)).all()
+
+
+def test_after_the_first_landmark_it_alone_is_correlated_after_the_second_all_are():
+    """The thesis' two-update example: the map's entries start independent."""
+    mak = MAK(START, P0)
+    mak.add([1], [[2, 0.5]], R)
+    mak.add([2], [[3, -0.7]], R)
+    L = mak._P.lower
+    L[3:, :3], L[5:, 3:5] = 0, 0
+    rng = np.random.default_rng(3)
+    mak.update([1], seen_again(mak, [1], rng), R)
+    P = mak.P
+    assert np.abs(P[3:5, :3]).min() > 0
+    assert not P[5:, :3].any() and not P[5:, 3:5].any()
+    mak.update([2], seen_again(mak, [2], rng), R)
+    P = mak.P
+    assert all(np.abs(block).max() > 1e-6 for block in (P[3:5, :3], P[5:, :3], P[5:, 3:5]))
+
+
 def test_removing_a_landmark_changes_nobody_elses_mean_or_covariance():
     rng = np.random.default_rng(5)
     mak = filled(rng, 5)
