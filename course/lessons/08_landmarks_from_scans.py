@@ -1439,8 +1439,8 @@ for (n, misses), false in table.items():
 # The sections below this one are optional.
 #
 # **Exercise:** [08 · Landmarks from scans: feature extraction and data
-# association](../exercises/ex08_landmarks_from_scans.ipynb). You fit a line, find where two walls meet, associate
-# observations with walls, find pillars, and segment a whole scan.
+# association](../exercises/ex08_landmarks_from_scans.ipynb). You fit a line, associate observations with walls, each
+# alone and all jointly, find pillars, and segment a whole scan.
 
 # %% [markdown] slideshow={"slide_type": "notes"} name="note-what-you-can-do-now"
 # *For the lecturer:* Ask which decision of this lesson the filter cannot undo later. (An association.)

@@ -11,42 +11,47 @@ from classroom.exercises.function_calls import (
 )
 
 
-def call_corner(functions, inputs):
-    """Call corner with pairs of lines; return {"p": (n, 2), "P": (n, 2, 2)}. Raise StudentError
-    "malformed" for other shapes."""
-    pairs = [
-        _two_values(functions["corner"](*row), "corner", "p, P") for row in argument_rows(inputs)
-    ]
-    return {
-        "p": np.array([to_shaped_array(p, "corner's p", (2,)) for p, _ in pairs]),
-        "P": np.array([to_shaped_array(P, "corner's P", (2, 2)) for _, P in pairs]),
-    }
-
-
 def call_associate(functions, inputs):
     """Call associate for each scene; return {"pairs": (n, m)}, −1 for None. Raise StudentError
     "malformed" unless it returns m entries, each an integer below N or None."""
-    (n, count), walls = inputs["z"].shape[:2], inputs["expected"].shape[1]
-    out = []
+    walls = inputs["expected"].shape[1]
+    rows = [
+        _numbers(functions["associate"](*row), "associate", len(row[0]), walls)
+        for row in argument_rows(inputs)
+    ]
+    return {"pairs": np.array(rows, dtype=float).reshape(inputs["z"].shape[:2])}
+
+
+def call_joint(functions, inputs):
+    """Call associate_jointly for each scene; return {"pairs": (n, m), "d2": (n,)}. Raise
+    StudentError "malformed" unless it returns m entries as associate does, and a number."""
+    name, walls, rows, d2 = "associate_jointly", inputs["expected"].shape[1], [], []
     for row in argument_rows(inputs):
-        pairs = functions["associate"](*row)
-        if pairs is None or isinstance(pairs, str | dict) or not hasattr(pairs, "__len__"):
-            raise StudentError(
-                "malformed", "associate must return a list with one entry per observation"
-            )
-        if len(pairs) != count:
-            raise StudentError(
-                "malformed", f"associate returned {len(pairs)} entries for {count} observations"
-            )
-        out.append([-1 if entry is None else _wall_number(entry, walls) for entry in pairs])
-    return {"pairs": np.array(out, dtype=float).reshape(n, count)}
+        pairs, distance = _two_values(functions[name](*row), name, "pairs, d2")
+        rows.append(_numbers(pairs, name, len(row[0]), walls))
+        d2.append(to_shaped_array(distance, f"{name}'s d2", ()))
+    pairs = np.array(rows, dtype=float).reshape(inputs["z"].shape[:2])
+    return {"pairs": pairs, "d2": np.array(d2)}
 
 
-def _wall_number(entry, walls):
-    number = to_array(entry, "associate's entry")
+def _numbers(pairs, function, count, walls):
+    """The wall of each of ``count`` measurements, −1 for None."""
+    if pairs is None or isinstance(pairs, str | dict) or not hasattr(pairs, "__len__"):
+        raise StudentError(
+            "malformed", f"{function} must return a list with one entry per observation"
+        )
+    if len(pairs) != count:
+        raise StudentError(
+            "malformed", f"{function} returned {len(pairs)} entries for {count} observations"
+        )
+    return [-1 if entry is None else _wall_number(entry, function, walls) for entry in pairs]
+
+
+def _wall_number(entry, function, walls):
+    number = to_array(entry, f"{function}'s entry")
     if number.shape != () or number != np.floor(number) or not 0 <= number < walls:
         which = f"a wall's number, 0 to {walls - 1}, or None" if walls else "None: no wall is known"
-        raise StudentError("malformed", f"associate: each entry must be {which}")
+        raise StudentError("malformed", f"{function}: each entry must be {which}")
     return float(number)
 
 
@@ -110,8 +115,8 @@ def _two_values(value, function, names):
 
 CALLS = {
     "08-fit-line": FunctionCall(("fit_line",)),
-    "08-corner": FunctionCall(("corner",), run=call_corner),
     "08-associate": FunctionCall(("associate",), run=call_associate),
+    "08-joint": FunctionCall(("associate_jointly",), run=call_joint),
     "08-pillar": FunctionCall(("fit_circle", "find_pillar"), run=call_pillar_functions),
     "08-segments": FunctionCall(("segment",), run=call_segment),
 }

@@ -1,9 +1,9 @@
 # %% [markdown]
 # # Exercise 08 · Landmarks from scans: feature extraction and data association
 #
-# **You will be able to** fit a line to a wall of any direction, compute the corner of two walls and
-# its covariance, associate the walls of a scan with the walls of a map, find round pillars with
-# RANSAC, and segment a whole scan into its walls.
+# **You will be able to** fit a line to a wall of any direction, associate the walls of a scan with
+# the walls of a map, each alone and all jointly, find round pillars with RANSAC, and segment a whole
+# scan into its walls.
 #
 # **60 minutes. Before:** lesson [08 · Landmarks from scans: feature extraction and data association](../notebooks/08_landmarks_from_scans.ipynb).
 #
@@ -17,6 +17,8 @@
 # function must not change its arguments.
 
 # %%
+from itertools import product
+
 import numpy as np
 
 from classroom.checks import ask, attempt, check
@@ -85,82 +87,7 @@ def _():
 
 
 # %% [markdown]
-# ## 2 · Corners
-#
-# You have two lines of one scan, each with its covariance `R`. The errors of $\rho$ and $\alpha$ of
-# one line are correlated. The errors of different lines are independent. The corner $p$ is the
-# intersection of the lines. With the normal $n = (\cos\alpha, \sin\alpha)$ of each line,
-#
-# $$n_1 \cdot p = \rho_1, \qquad n_2 \cdot p = \rho_2.$$
-
-# %%
-ask(
-    "ex08-corner",
-    "Two walls meet at a right angle. The second wall is known exactly. Of the first wall, only "
-    "the direction $\\alpha$ is uncertain. **Along which wall is the position of the corner "
-    "uncertain?**",
-    {
-        "along the first, which has an uncertain direction": "the corner also lies on the second wall, which is known exactly.",
-        "along the second": "an error of α turns the first wall, and its intersection with the second wall moves along the second.",
-        "along both": "the corner always lies on the second wall, which is known exactly.",
-    },
-    right="along the second",
-)
-
-# %% [markdown]
-# **Your task.** Return the corner $p$ (2,) [m] and its covariance `P` (2, 2) [m²] by (08.9). You
-# can derive the Jacobians without a formula for $p$. Differentiate both sides of $n \cdot p =
-# \rho$:
-#
-# $$n \cdot \mathrm dp = \mathrm d\rho - (n' \cdot p)\, \mathrm d\alpha, \qquad
-# n' = (-\sin\alpha, \cos\alpha).$$
-#
-# The angle between the walls is at least 10°. $\rho$ may be zero or negative, and $\alpha$ may be any angle. The
-# covariance of a line that is known exactly is zero. The check compares your $p$ and `P` with the exact solution and
-# its first-order covariance. An entry of `P` may have an error of $10^{-8}$ of the largest entry. Some corners are
-# 1000 km from the origin, where finite differences have larger errors.
-
-
-# %%
-def corner(z1, R1, z2, R2):
-    """The intersection of two lines, and its covariance.
-
-    z1, z2 : (2,) lines, ρ [m], α [rad];  R1, R2 : (2, 2) their covariances
-    returns p (2,) [m] and P (2, 2) [m²]
-    """
-    ### BEGIN SOLUTION
-    N = np.array([[np.cos(z[1]), np.sin(z[1])] for z in (z1, z2)])
-    p = np.linalg.solve(N, [z1[0], z2[0]])
-    P = np.zeros((2, 2))
-    for k, R in enumerate((R1, R2)):
-        across = np.array([-N[k, 1], N[k, 0]])
-        J = np.outer(np.linalg.inv(N)[:, k], [1, -(across @ p)])
-        P = P + J @ R @ J.T
-    return p, P
-    ### END SOLUTION
-
-
-# %%
-check("08-corner")
-
-# %% [markdown]
-# The figure shows the corners of 500 simulated scans. About 95 % of them should lie inside your ellipse.
-
-
-# %%
-@attempt
-def _():
-    rng = np.random.default_rng(5)
-    z1, R1 = np.array([2.0, 0.2]), np.diag([0.02, 0.03]) ** 2
-    z2, R2 = np.array([1.5, 1.4]), np.diag([0.02, 0.01]) ** 2
-    firsts, seconds = (rng.multivariate_normal(z, R, 500) for z, R in ((z1, R1), (z2, R2)))
-    seen = [corner(a, R1, b, R2)[0] for a, b in zip(firsts, seconds, strict=True)]
-    fig, _ = views.cloud(seen, {"your P, 95 %": corner(z1, R1, z2, R2)[1]})
-    views.show(fig, alt=f"{len(seen)} measured corners, and the ellipse of your P.")
-
-
-# %% [markdown]
-# ## 3 · Data association
+# ## 2 · Data association
 #
 # The scan shows $m$ walls: each row of `z` (m, 2) is a measurement $(\rho, \alpha)$. The map has
 # $N$ walls. The predicted measurements of the walls are `expected` (N, 2), and `S` (N, 2, 2)
@@ -217,6 +144,110 @@ def _():
     S = np.array([np.diag([0.06, 0.15]) ** 2] * 2)
     print("Euclidean distances:", np.hypot(*(seen - expected).T).round(2))
     print("your association:   ", associate(seen, expected, S, 5.99))
+
+
+# %% [markdown]
+# ## 3 · Joint compatibility
+#
+# All measurements of a scan are made from one pose. If its heading is wrong, all innovations show
+# this error, so they are correlated. The innovations of $k$ pairs are stacked to one vector $v$ of
+# $2k$ numbers, with one covariance $S$. The joint $d^2 = v^{\mathsf T} S^{-1} v$ of $k$ correct pairs
+# is $\chi^2$ distributed with $2k$ degrees of freedom.
+
+# %%
+ask(
+    "ex08-joint",
+    "Only the heading is uncertain, with $\\sigma$ = 0.10 rad, and a measurement of $\\alpha$ has a "
+    "$\\sigma$ of 0.02 rad. Of two pairs, the innovations of $\\alpha$ are 0.2 and −0.2 rad, which gives "
+    "a $d^2$ of 3.8 for each alone. **How large is their joint $d^2$?**",
+    {
+        "3.8": "this would be nearly right for two innovations of 0.2 rad: both then show the same error of the heading.",
+        "7.7": "this is the sum. It is right only for independent innovations.",
+        "200": "the difference of the innovations, 0.4 rad, contains no error of the heading. Its variance is only 2 · 0.02², and 0.4² / 0.0008 = 200.",
+    },
+    right="200",
+)
+
+# %% [markdown]
+# The filter's state is the pose and all $N$ walls; `P` is its covariance. `H[j]` is the Jacobian of
+# the predicted measurement of wall $j$ by the whole state, (08.10). Each measurement has the
+# covariance `R`. The errors of different measurements are independent of each other and of the state.
+#
+# An association gives each measurement a wall, or none. It is **compatible** if
+#
+# - it uses no wall twice,
+# - each of its pairs *alone* has a $d^2$ within the gate,
+# - all its pairs *jointly* have a $d^2$ within the gate.
+#
+# `gates[f]` is the largest $d^2$ for $f$ degrees of freedom, and `gates[0]` is 0.
+#
+# **Your task.** Return the compatible association with the most pairs as a list of $m$ entries, as in
+# task 2, and its joint $d^2$. Of several with as many pairs, choose the one with the smallest joint
+# $d^2$. Without any pair, $d^2$ is 0. You may try all associations: there are at most three
+# measurements and four walls, or none. (JCBB finds the same association without trying all.)
+#
+# | judged | points |
+# | --- | --- |
+# | $d^2$ is the joint $d^2$ of the pairs that you return, with a relative error of at most $10^{-6}$; you return two pairs or more in at least half of the scenes that have them | 1.5 |
+# | the association is compatible | 0.5 |
+# | it is the best one; the second best, and every gate, differ by more than 1 % | 1.5 |
+
+
+# %%
+def associate_jointly(z, expected, H, P, R, gates):
+    """The best jointly compatible association, and its squared Mahalanobis distance.
+
+    z, expected : (m, 2), (N, 2) ρ [m], α [rad];  H : (N, 2, n);  P : (n, n), n = 3 + 2N;  R : (2, 2)
+    gates : (f,) largest d² by degrees of freedom
+    returns a list of m: the number 0 … N−1 of the wall, or None; d2 : float
+    """
+    ### BEGIN SOLUTION
+
+    def distance(pairs):
+        if not pairs:
+            return 0.0
+        v = np.array([z[i] - expected[j] for i, j in pairs])
+        v[:, 1] = wrap(v[:, 1])
+        rows = np.concatenate([H[j] for _, j in pairs])
+        S = rows @ P @ rows.T + np.kron(np.eye(len(pairs)), R)
+        return v.ravel() @ np.linalg.solve(S, v.ravel())
+
+    best = (0, 0.0, [None] * len(z))
+    for walls in product([None, *range(len(expected))], repeat=len(z)):
+        pairs = [(i, j) for i, j in enumerate(walls) if j is not None]
+        used = [j for _, j in pairs]
+        d2 = distance(pairs)
+        alone = all(distance([pair]) <= gates[2] for pair in pairs)
+        if len(set(used)) == len(used) and alone and d2 <= gates[2 * len(pairs)]:
+            best = min(best, (-len(pairs), d2, walls), key=lambda each: each[:2])
+    return list(best[2]), best[1]
+    ### END SOLUTION
+
+
+# %%
+check("08-joint")
+
+# %% [markdown]
+# This is the example of the lesson: after an inaccurate turn, the first measurement can only be wall
+# A (0). The second is nearer to wall B (1) than to wall C (2). Which wall is compatible with the first?
+
+
+# %%
+@attempt
+def _():
+    z, expected = (
+        np.array([[2.98, 0.05], [2.0, 1.75]]),
+        np.array([[3, 0.3], [2, 1.55], [2.02, 2.02]]),
+    )
+    H = np.zeros((3, 2, 9))
+    H[:, 0, 0], H[:, 0, 1], H[:, 1, 2] = -np.cos(expected[:, 1]), -np.sin(expected[:, 1]), -1
+    for j in range(3):
+        H[j, :, 3 + 2 * j : 5 + 2 * j] = np.eye(2)
+    P, R = np.diag([0.05, 0.05, 0.15] + [0.02] * 6) ** 2, np.diag([0.02, 0.02]) ** 2
+    print("each alone:", associate(z, expected, H @ P @ H.transpose(0, 2, 1) + R, 5.99))
+    gates = np.array([0, 3.84, 5.99, 7.81, 9.49])
+    walls, d2 = associate_jointly(z, expected, H, P, R, gates)
+    print(f"jointly:    {walls}, d² = {d2:.1f}")
 
 
 # %% [markdown]

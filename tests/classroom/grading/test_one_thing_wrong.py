@@ -172,7 +172,6 @@ PINV = (
     [
         (edited("08-pillar", ("best.sum() < needed", "best.sum() < 3")), "08-pillar inside"),
         (mistake("08-pillar", "radius-squared"), "08-pillar circle"),
-        (mistake("08-corner", "sum-of-feet"), "08-corner place"),
         (mistake("09-place", "foot-of-the-robot"), "09-place line"),
         (edited("09-life", ("left > 1", "left > 0")), "09-life inside"),
         (edited("09-life", ("left > 1", "left > 2")), "09-life inside"),

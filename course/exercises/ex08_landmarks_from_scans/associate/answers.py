@@ -94,39 +94,6 @@ def associate(z, expected, S, gate):
     found = pair({k: d for k, d in table.items() if d <= gate})
     return [found.get(i) for i in range(len(z))]
 
-# %% right: all pairs in a list, sorted
-def associate(z, expected, S, gate):
-    pairs = []
-    for i in range(len(z)):
-        for j in range(len(expected)):
-            v = z[i] - expected[j]
-            v[1] = (v[1] + np.pi) % (2 * np.pi) - np.pi
-            d = v @ np.linalg.solve(S[j], v)
-            if d <= gate:
-                pairs.append((d, i, j))
-    out, used = [None] * len(z), set()
-    for d, i, j in sorted(pairs):
-        if out[i] is None and j not in used:
-            out[i] = j
-            used.add(j)
-    return out
-
-# %% right: a matrix and a loop
-def associate(z, expected, S, gate):
-    m, N = len(z), len(expected)
-    found = [None] * m
-    D = np.full((m, N), np.inf)
-    for i in range(m):
-        for j in range(N):
-            v = np.array([z[i, 0] - expected[j, 0], np.angle(np.exp(1j * (z[i, 1] - expected[j, 1])))])
-            D[i, j] = v @ np.linalg.solve(S[j], v)
-    while m and N and D.min() <= gate:
-        i, j = np.unravel_index(np.argmin(D), D.shape)
-        found[i] = int(j)
-        D[i, :] = np.inf
-        D[:, j] = np.inf
-    return found
-
 # %% wrong: angles of the sightings changed in place
 def associate(z, expected, S, gate):
     todo = []

@@ -69,35 +69,6 @@ def fit_line(points):
     n = n * (1 if n @ c >= 0 else -1)
     return float(n @ c), float(np.arctan2(n[1], n[0]) % (2 * np.pi))
 
-# %% right: svd of the counted points
-def fit_line(points):
-    m = points.mean(axis=0)
-    n = np.linalg.svd(points - m)[2][1]
-    rho = n @ m
-    if rho < 0:
-        n, rho = -n, -rho
-    return rho, np.arctan2(n[1], n[0])
-
-# %% right: closed formula of the angle from the second moments, arctan2
-def fit_line(points):
-    mx, my = points.mean(axis=0)
-    x, y = points[:, 0] - mx, points[:, 1] - my
-    alpha = 0.5 * np.arctan2(-2 * np.sum(x * y), np.sum(y**2) - np.sum(x**2))
-    rho = mx * np.cos(alpha) + my * np.sin(alpha)
-    if rho < 0:
-        return -rho, np.arctan2(-np.sin(alpha), -np.cos(alpha))
-    return rho, alpha
-
-# %% right: closed form of the angle
-def fit_line(points):
-    x, y = points[:, 0], points[:, 1]
-    a, b = x - np.mean(x), y - np.mean(y)
-    alpha = np.arctan2(-2 * np.sum(a * b), np.sum(b**2 - a**2)) / 2
-    rho = np.mean(x) * np.cos(alpha) + np.mean(y) * np.sin(alpha)
-    if rho < 0:
-        return -rho, alpha + np.pi
-    return rho, alpha
-
 # %% wrong: rho made positive, alpha not turned
 def fit_line(points):
     centre = points.mean(axis=0)

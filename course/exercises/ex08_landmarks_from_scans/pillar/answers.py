@@ -183,39 +183,6 @@ def find_pillar(points, band, largest, needed, tries, rng):
     c, r = fit_circle(points[winner])
     return c, r, winner
 
-# %% right: normal equations about the centroid; circumcentre by formula
-def fit_circle(points):
-    # moving the origin changes neither side's difference: the same least squares
-    m = points.mean(axis=0)
-    q = points - m
-    w = np.sum(q**2, axis=1)
-    c = np.linalg.solve(2 * q.T @ q, q.T @ (w - w.mean()))
-    return m + c, float(np.sqrt(w.mean() + c @ c))
-
-
-def find_pillar(points, band, largest, needed, tries, rng):
-    if len(points) < 3:
-        return None
-    best, best_count = None, -1
-    for _ in range(tries):
-        a, b, c = points[rng.choice(len(points), size=3, replace=False)]
-        p, q = b - a, c - a
-        D = 2 * (p[0] * q[1] - p[1] * q[0])
-        if abs(D) < 1e-12:
-            continue
-        u = np.array([q[1] * (p @ p) - p[1] * (q @ q), p[0] * (q @ q) - q[0] * (p @ p)]) / D
-        r = np.sqrt(u @ u)
-        if not r <= largest:
-            continue
-        off = np.sqrt(np.sum((points - a - u) ** 2, axis=1)) - r
-        inside = (off <= band) & (off >= -band)
-        if np.count_nonzero(inside) > best_count:
-            best, best_count = inside, np.count_nonzero(inside)
-    if best_count < needed:
-        return None
-    centre, radius = fit_circle(points[best])
-    return centre, radius, best
-
 # %% right: lstsq on three readings on a line: a circle that is none
 def fit_circle(points):
     A = np.column_stack([2 * points, np.ones(len(points))])
@@ -372,33 +339,6 @@ def find_pillar(points, band, largest, needed, tries, rng):
         if inside.sum() > votes:
             winner, votes = inside, inside.sum()
     if votes < needed:
-        return None
-    c, r = fit_circle(points[winner])
-    return c, r, winner
-
-# %% wrong: exactly needed readings refused
-def fit_circle(points):
-    A = np.column_stack([2 * points, np.ones(len(points))])
-    cx, cy, d = np.linalg.lstsq(A, np.sum(points**2, axis=1), rcond=None)[0]
-    return np.array([cx, cy]), np.sqrt(d + cx**2 + cy**2)
-
-
-def find_pillar(points, band, largest, needed, tries, rng):
-    n = len(points)
-    if n < 3:
-        return None
-    winner, votes = None, 0
-    for _ in range(tries):
-        three = points[rng.permutation(n)[:3]]
-        if abs(np.linalg.det(np.column_stack([three, np.ones(3)]))) < 1e-9:
-            continue
-        c, r = fit_circle(three)
-        if r > largest:
-            continue
-        inside = np.abs(np.linalg.norm(points - c, axis=1) - r) <= band
-        if inside.sum() > votes:
-            winner, votes = inside, inside.sum()
-    if votes <= needed:
         return None
     c, r = fit_circle(points[winner])
     return c, r, winner

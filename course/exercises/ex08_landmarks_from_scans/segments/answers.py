@@ -382,29 +382,6 @@ def segment(points, share):
         labels[left[inside[k]]] = wall
     return labels
 
-# %% wrong: clutter left out: an answer shorter than the scan
-def segment(points, share):
-    far = np.hypot(*points.T)
-    beams = points / far[:, None]
-    labels = np.full(len(points), -1)
-    rng = np.random.default_rng(0)
-    for wall in range(12):
-        left = np.flatnonzero(labels < 0)
-        if len(left) < 8:
-            break
-        i = rng.integers(len(left), size=150)
-        j = (i + rng.integers(3, 20, size=150)) % len(left)
-        d = points[left[j]] - points[left[i]]
-        normals = np.column_stack([-d[:, 1], d[:, 0]]) / np.maximum(np.hypot(*d.T), 1e-9)[:, None]
-        rho = np.sum(normals * points[left[i]], axis=1)
-        tol = share * far[left] * np.abs(normals @ beams[left].T) + 0.005
-        inside = np.abs(normals @ points[left].T - rho[:, None]) < 2.5 * tol
-        k = inside.sum(axis=1).argmax()
-        if inside[k].sum() < 8:
-            break
-        labels[left[inside[k]]] = wall
-    return labels[labels >= 0]
-
 # %% wrong: numbers for a scan of 180 readings only
 def segment(points, share):
     far = np.hypot(*points.T)
