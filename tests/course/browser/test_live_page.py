@@ -184,6 +184,10 @@ def test_without_the_token_a_page_shows_nothing(live):
     again = run.look(run.address.split("#")[0])
     again.get_by_text("Access denied").wait_for()
     assert again.locator("canvas").count() == 0
+    again.route("**/login", lambda route: route.abort())  # as if the program had ended
+    again.goto("about:blank")
+    again.goto(run.address.split("#")[0] + "#guessed")
+    again.get_by_text("The program has ended").wait_for()
     run.errors.clear()  # the browser's own words on what was refused
 
 

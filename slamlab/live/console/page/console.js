@@ -39,7 +39,7 @@ function connect() {
   socket.addEventListener("close", ({ reason }) => {
     for (const control of at("panel").querySelectorAll("button, input, select")) control.disabled = true;
     const lost = "The connection is lost. Reload this page; if that fails, the program has ended.";
-    const refused = "Access denied. Open the address that the program printed.";
+    const refused = "Access denied, or the program has ended. Open the address that the program printed.";
     report(reason || (state ? lost : refused));
   });
   setInterval(() => {
@@ -100,4 +100,4 @@ function listen(send, feed) {
   });
 }
 
-logIn().then((accepted) => (accepted ? connect() : report("The token is wrong. Open the address that the program printed.")));
+logIn().then((accepted) => (accepted ? connect() : report(accepted === false ? "The token is wrong. Open the address that the program printed." : "The program has ended.")));
