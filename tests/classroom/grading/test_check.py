@@ -104,6 +104,10 @@ def test_a_task_that_needs_a_wrong_function_is_checked_with_a_right_one_that_doe
     assert "tried with a right `double` in place of yours" in printed.getvalue()
     assert "2 of 2 points" in printed.getvalue()
     assert names["double"](1.0) == 1.0
+    exec("def total(a):\n    raise NotImplementedError", names)
+    with contextlib.redirect_stdout(io.StringIO()) as blank:
+        eval("check('99-total')", names)
+    assert "not attempted yet" in blank.getvalue() and "tried with" not in blank.getvalue()
     with pytest.raises(RuntimeError, match="only while a task is judged"):
         names["kept"][0](1.0)
     assert "in place of" not in checked("", "99-total")[0]
