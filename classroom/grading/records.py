@@ -82,7 +82,7 @@ class Record:
 
 def _findings(verdict):
     failed = ", ".join(f"“{law.says}”" for law in verdict.laws if law.failed)
-    return verdict.carried, verdict.problem or (failed and f"fails {failed}")
+    return verdict.carried, verdict.problem or (failed and f"loses the points for {failed}")
 
 
 def write_atomically(path: Path, text: str):

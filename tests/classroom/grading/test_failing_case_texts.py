@@ -166,6 +166,7 @@ def test_under_the_grader_nothing_of_a_case_or_a_value_is_reported(body, tmp_pat
     (verdict,) = record.verdicts
     assert verdict.points == 0
     assert verdict.case is None
+    assert verdict.problem or "loses the points for “" in record.note
     row = gradebook_rows.stored(record)["record"]
     answer = json.dumps(row["verdicts"]) + json.dumps(row["cells"])
     page = feedback.feedback_page(mark(record)).partition("</style>")[2]
