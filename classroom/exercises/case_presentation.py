@@ -99,7 +99,6 @@ PRESENTATIONS = {
         "is in the book, its remaining lives and its `sightings`, and how often it is in used:",
     ),
     "10-relaxed": CasePresentation(shown=_relaxed),
-    "11-weigh": CasePresentation(shown=_logarithms),
     "11-draw": CasePresentation(
         "draw is called with rng = np.random.default_rng(seed) and",
         "the indices that it returns, sorted, are",
@@ -108,6 +107,10 @@ PRESENTATIONS = {
     "11-localise": CasePresentation(
         STEPS.format("localise", "u = us[k] and z = zs[k]"),
         "call k, counted from 0, returned rows[k] and weights[k]:",
+    ),
+    "11-fastslam": CasePresentation(
+        "fast_slam is called with rng = np.random.default_rng(seed) and",
+        "it returns rows, weights, p and P:",
     ),
     "11-kidnapped": CasePresentation(
         STEPS.format("find_again", "u = us[k], p = ps[k] and z = zs[k]")

@@ -1302,8 +1302,8 @@ for name in (sets.EKF, sets.SETS, *sets.FAST.values()):
 #
 # The sections below this one are optional.
 #
-# **Exercise:** [11 · Particle filters](../exercises/ex11_particle_filters.ipynb). You weight, resample and localise,
-# correct for particles from another proposal, and relocalise a kidnapped robot.
+# **Exercise:** [11 · Particle filters](../exercises/ex11_particle_filters.ipynb). You resample and localise,
+# correct for particles from another proposal, write a step of FastSLAM, and relocalise a kidnapped robot.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Deeper: the density of the motion, counted twice

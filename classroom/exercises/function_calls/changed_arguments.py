@@ -16,6 +16,7 @@ ARGUMENT_NAMES = {
     "09-ghosts": ["x", "P", "drives", "C", "scans", "R", "far"],
     "11-draw": ["weights", "rng"],
     "11-localise": _SAMPLES,
+    "11-fastslam": ["rows", "weights", "p", "P", "u", "C", "z", "R", "rng"],
     "11-kidnapped": _SAMPLES,
     "12-relocalise": ["start", "motions", "sights", "posts"],
     "15-step": ["poses", "edges"],

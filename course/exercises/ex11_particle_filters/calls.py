@@ -9,24 +9,7 @@ from classroom.exercises.function_calls import (
     to_shaped_array,
 )
 
-MOST = 1e8  # clips wrong answers; no right answer is larger
 AGAIN = 20  # seeds drawn twice: a single draw may be the same by chance
-
-
-def call_log_likelihoods(functions, inputs):
-    """Call "log_likelihoods" for each scan; return {"logs": (k, n), 0 where not finite,
-    "finite": (k, n), 1, or 0 for NaN, −1 for −∞, −2 for ∞}. Raise StudentError for wrong shapes.
-    """
-    name, call = next(iter(functions.items()))
-    logs = np.array(
-        [
-            to_shaped_array(call(*row), f"{name}'s array", (len(row[0]),))
-            for row in argument_rows(inputs)
-        ]
-    )
-    finite = np.select([np.isfinite(logs), logs == -np.inf, logs == np.inf], [1.0, -1.0, -2.0])
-    logs = np.where(finite > 0, np.clip(logs, -MOST, MOST), 0.0)
-    return {"logs": logs, "finite": finite}
 
 
 def call_draw(functions, inputs):
@@ -68,6 +51,19 @@ def call_localise(functions, inputs):
     return {"rows": np.array(rows), "weights": np.array(weights)}
 
 
+def call_fast_slam(functions, inputs):
+    """Call "fast_slam" once for each row; return {"rows": (k, n, 3), "weights": (k, n), "p":
+    (k, n, 2), "P": (k, n, 2, 2)}. Raise StudentError for any other shape.
+    """
+    step, names = functions["fast_slam"], ("rows", "weights", "p", "P")
+    found = []
+    for *given, seed in argument_rows(inputs):
+        shapes = [array.shape for array in given[:4]]
+        value = step(*given, np.random.default_rng(int(seed)))
+        found.append(_check_particles(value, "fast_slam", shapes, names))
+    return dict(zip(names, map(np.array, zip(*found, strict=True)), strict=True))
+
+
 def call_find_again(functions, inputs):
     """Call "find_again" for all runs in turn, so that data which it stores outside its particles is
     from another run. Return {"places": (k, t, n, 2), "weights": (k, t, n)}. Raise StudentError.
@@ -90,24 +86,24 @@ def _run_steps(functions, particles, us, C, ps, zs, R, seed):
         yield particles
 
 
-def _check_particles(pair, name, shapes):
-    if not isinstance(pair, tuple | list) or len(pair) != 2:
-        raise StudentError("malformed", f"{name} must end with: return rows, weights")
-    rows, weights = (
+def _check_particles(value, name, shapes, names=("rows", "weights")):
+    if not isinstance(value, tuple | list) or len(value) != len(names):
+        raise StudentError("malformed", f"{name} must end with: return {', '.join(names)}")
+    parts = [
         to_shaped_array(part, f"{name}'s {which}", shape)
-        for part, which, shape in zip(pair, ("rows", "weights"), shapes, strict=True)
-    )
-    if not (np.isfinite(rows).all() and np.isfinite(weights).all()):
+        for part, which, shape in zip(value, names, shapes, strict=True)
+    ]
+    if not all(np.isfinite(part).all() for part in parts):
         raise StudentError("malformed", f"{name} returned NaN or infinity")
-    if (weights < 0).any() or not weights.any():
+    if (parts[1] < 0).any() or not parts[1].any():
         raise StudentError("malformed", f"{name}'s weights: one weight is negative, or all are 0")
-    return rows, weights
+    return parts
 
 
 CALLS = {
-    "11-weigh": FunctionCall(("log_likelihoods",), call_log_likelihoods),
     "11-draw": FunctionCall(("draw",), call_draw),
     "11-localise": FunctionCall(("localise",), call_localise),
     "11-proposal": FunctionCall(("reweigh",)),
+    "11-fastslam": FunctionCall(("fast_slam",), call_fast_slam),
     "11-kidnapped": FunctionCall(("find_again",), call_find_again),
 }

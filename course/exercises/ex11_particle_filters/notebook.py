@@ -2,14 +2,14 @@
 # # Exercise 11 · Particle filters
 #
 # **You will be able to** localise a robot with a particle set, compute importance weights for particles from another
-# proposal, and relocalise a kidnapped robot.
+# proposal, write a step of FastSLAM, and relocalise a kidnapped robot.
 #
 # **60 minutes. Before:** lesson [11 · Particle filters](../notebooks/11_particle_filters.ipynb).
 #
 # Replace each `raise NotImplementedError(...)` by your code, run the cell, then run the check below
 # it. You can repeat this as often as you like. A check tries random inputs and special cases that
 # the text allows, such as a single particle. If your answer breaks a law, the check shows a small
-# input that breaks it. `hint("11-weigh")` in a cell of your own asks a guiding question.
+# input that breaks it. `hint("11-draw")` in a cell of your own asks a guiding question.
 #
 # All lengths are in metres, all angles in radians. `rows` (n, 3) are particles, one pose `[x, y,
 # θ]` in each row. A control input from odometry is `u = [d, Δθ]`. `z` (m, 2) are measured ranges
@@ -31,9 +31,10 @@ from slamlab.models import f_odometry, h
 # **one** pose x (3,), or of **one** landmark p (2,) from many poses x (n, 3). `f_odometry(x, u)` is
 # the motion model for one pose. `wrap(angle)` returns the angle in $(-\pi, \pi]$.
 #
-# The next cell contains three given functions. Read them first. `move` samples the motion model:
+# The next cell contains four given functions. Read them first. `move` samples the motion model:
 # each particle moves along *its own* heading, with *its own* odometry noise of covariance C (2, 2).
-# `normalise` is (11.7), and `effective_size` is (11.6).
+# `log_likelihoods` returns the logarithm of (11.5) for each particle, except for a constant that is
+# equal for all particles. `normalise` is (11.7), and `effective_size` is (11.6).
 
 
 # %%
@@ -42,6 +43,16 @@ def move(rows, u, C, rng):
     d, turn = rng.multivariate_normal(u, C, len(rows)).T
     x, y, theta = rows.T
     return np.column_stack([x + d * np.cos(theta), y + d * np.sin(theta), wrap(theta + turn)])
+
+
+def log_likelihoods(rows, p, z, R):
+    """Log-likelihoods (n,) of a scan of the landmarks p (m, 2), given each particle."""
+    logs = np.zeros(len(rows))
+    for place, seen in zip(p, z, strict=True):
+        v = seen - h(rows, place)
+        v[:, 1] = wrap(v[:, 1])
+        logs -= 0.5 * np.sum(v @ np.linalg.inv(R) * v, axis=1)
+    return logs
 
 
 def normalise(logs):
@@ -56,58 +67,7 @@ def effective_size(weights):
 
 
 # %% [markdown]
-# ## 1 · Log-likelihoods
-#
-# How likely is the scan if the pose is the particle $x_i$? The errors of the $m$ measurements are
-# independent, and each has the covariance $R$. So their likelihoods multiply, and the
-# log-likelihoods add up:
-#
-# $$\ell_i = \sum_{j=1}^{m} -\tfrac12\, v_{ij}^{\mathsf T} R^{-1} v_{ij}, \qquad v_{ij} = z_j - h(x_i, p_j).$$
-
-# %%
-ask(
-    "ex11-float",
-    "A lidar scan has 400 beams. Each innovation is two standard deviations in range and two in "
-    "bearing. The likelihood of the scan is $e^{\\ell}$ with $\\ell = -1600$. **Which "
-    "floating-point number represents this likelihood?**",
-    {
-        "about $10^{-35}$": "that is the likelihood of about twenty such measurements. The likelihood of 400 measurements is far smaller.",
-        "exactly 0, and its logarithm is $-\\infty$": "the smallest positive float is about 5e-324. If all particles get 0, "
-        "the weights do not distinguish good particles from bad ones.",
-        "a small number, known to 16 digits": "a float has 16 digits down to about 2e-308. This number is about 1e-695.",
-    },
-    right="exactly 0, and its logarithm is $-\\infty$",
-)
-
-# %% [markdown]
-# **Your task.** Return the log-likelihoods $\ell_i$ of all particles. You may omit a constant that
-# is equal for all particles, because the check compares differences between particles. Particles
-# may be many metres from the true pose, so do not compute the likelihood itself: as a float it
-# would be zero. The errors of range and bearing may be correlated. Some arrays contain integers.
-
-
-# %%
-def log_likelihoods(rows, p, z, R):
-    """Log-likelihood of a scan, given each particle.
-
-    rows : (n, 3);  p : (m, 2) landmarks;  z : (m, 2) range and bearing of each;  R : (2, 2)
-    returns (n,)
-    """
-    ### BEGIN SOLUTION
-    logs = np.zeros(len(rows))
-    for place, seen in zip(p, z, strict=True):
-        v = seen - h(rows, place)
-        v[:, 1] = wrap(v[:, 1])
-        logs -= 0.5 * np.sum(v @ np.linalg.inv(R) * v, axis=1)
-    return logs
-    ### END SOLUTION
-
-
-# %%
-check("11-weigh")
-
-# %% [markdown]
-# ## 2 · Systematic resampling
+# ## 1 · Systematic resampling
 #
 # Resampling draws $n$ new particles from $n$ particles, particle $i$ with the probability $w_i$.
 # Put the weights one after the other on a line of length 1: each weight is a segment of this line.
@@ -167,7 +127,7 @@ def _():
 
 
 # %% [markdown]
-# ## 3 · Monte Carlo localisation
+# ## 2 · Monte Carlo localisation
 #
 # This is one step of Monte Carlo localisation in a known map:
 #
@@ -177,8 +137,8 @@ def _():
 #
 # **Your task.** Return the particles and the weights after the step. The given weights are
 # positive and sum to one. All particles may be metres from the true pose. If your
-# `log_likelihoods` or `draw` is wrong, the check uses a correct one in its place. The check stops
-# after 10 s. It judges the following:
+# `draw` is wrong, the check uses a correct one in its place. The check stops after 10 s. It judges
+# the following:
 #
 # - In all runs, the ratios of the new weights of a step that did not resample must be right
 #   within $10^{-6}$, the weights must sum to one, and after each step the effective sample size
@@ -241,7 +201,7 @@ def _():
 
 
 # %% [markdown]
-# ## 4 · Importance weights for another proposal
+# ## 3 · Importance weights for another proposal
 #
 # In the lesson, each particle is sampled from the motion model, so its weight is multiplied by the
 # likelihood only. If the sensor is accurate, most of these particles are useless, because the
@@ -288,6 +248,88 @@ def reweigh(before, after, weights, u, C, m, D):
 check("11-proposal")
 
 # %% [markdown]
+# ## 4 · One step of FastSLAM
+#
+# So far the map was known. In FastSLAM each particle has *its own* map. Here the map is a single
+# landmark. Given its trajectory, particle $i$ estimates this landmark with its own small EKF, as a
+# Gaussian with the mean $\hat p_i$ and the covariance $P_i$. So the pose is sampled, and the map is
+# computed in closed form: this is a **Rao–Blackwellised particle filter** (11.11).
+#
+# If the pose of a particle is right, which two errors does its innovation contain? Now consider two
+# particles that both expect exactly the measurement that is made. One knows its landmark within
+# 1 cm, the other within 1 m. Which of them gave the measurement the higher probability density?
+#
+# **Your task.** Move the particles, update the map of each particle by the measurement $z$ of its
+# landmark, and multiply each weight by the likelihood of $z$ under the pose *and the map* of this
+# particle. Do not resample. The given weights are positive and sum to one, and your weights must
+# sum to one, too. Some particles expect the landmark so far away from $z$ that their likelihoods are
+# zero as floats. $C$ may be nearly zero. A landmark is never closer than 20 cm to a particle. You
+# may compute derivatives numerically.
+#
+# | law | what must hold | points |
+# | --- | --- | --- |
+# | moved | if $\sigma = 10^{-9}$ for odometry: each pose moves by $u$ along its own heading (only together with other laws) | 0.5 |
+# | map | in the same runs: $\hat p_i$ and $P_i$ after the update | 1 |
+# | weights | in the same runs: the weights | 1 |
+# | far | the weights, if all likelihoods are zero as floats | 0.5 |
+# | sampled | if odometry is noisy: the errors of $d$ and $\Delta\theta$ of 1500 particles have the mean 0 and the covariance $C$ within six standard deviations of chance, and the map or the weights belong to the returned poses | 1 |
+#
+# Numbers may have a relative error of $10^{-5}$, compared with the largest number of the array.
+
+
+# %%
+def fast_slam(rows, weights, p, P, u, C, z, R, rng):
+    """One step of FastSLAM with one landmark, without resampling.
+
+    rows : (n, 3);  weights : (n,);  p : (n, 2), P : (n, 2, 2) the landmark of each particle
+    u : (2,), C : (2, 2) odometry;  z : (2,) measurement of the landmark;  R : (2, 2)
+    returns rows (n, 3), weights (n,), p (n, 2), P (n, 2, 2)
+    """
+    ### BEGIN SOLUTION
+    rows = move(rows, u, C, rng)
+    logs, means, covariances = np.log(weights), np.empty(p.shape), np.empty(P.shape)
+    for i, x in enumerate(rows):
+        d = p[i] - x[:2]
+        q = d @ d
+        H = np.array([d / np.sqrt(q), [-d[1] / q, d[0] / q]])
+        v = z - h(x, p[i])
+        v[1] = wrap(v[1])
+        S = H @ P[i] @ H.T + R
+        K = P[i] @ H.T @ np.linalg.inv(S)
+        means[i] = p[i] + K @ v
+        covariances[i] = P[i] - K @ S @ K.T
+        logs[i] -= 0.5 * (v @ np.linalg.inv(S) @ v + np.log(np.linalg.det(S)))
+    return rows, normalise(logs), means, covariances
+    ### END SOLUTION
+
+
+# %%
+check("11-fastslam")
+
+# %% [markdown]
+# In the figure a robot drives on a circle and measures one landmark. Particles with other poses have other maps.
+
+
+# %%
+@attempt
+def _():
+    rng, n, mark, u = np.random.default_rng(11), 200, np.array([1.0, 3.0]), np.array([0.5, 0.15])
+    truth, rows, weights = np.zeros(3), np.zeros((n, 3)), np.full(n, 1 / n)
+    p, P = np.tile(mark + 0.2, (n, 1)), np.tile(0.3**2 * np.eye(2), (n, 1, 1))
+    C, R = np.diag([0.05, 0.04]) ** 2, np.diag([0.3, 0.1]) ** 2
+    for _ in range(12):
+        truth = f_odometry(truth, rng.multivariate_normal(u, C))
+        z = h(truth, mark) + rng.multivariate_normal([0, 0], R)
+        rows, weights, p, P = fast_slam(rows, weights, p, P, u, C, z, R, rng)
+    fig, ax = views.axes("FastSLAM after twelve steps, without resampling", size=(7, 4))
+    views.draw(ax, layers.Particles("samples", rows, weights))
+    views.draw(ax, layers.Points("maps", p))
+    views.draw(ax, layers.Poses("truth", truth))
+    views.legend(ax)
+    views.show(fig, alt="Particles with their landmarks after twelve steps, and the true pose.")
+
+
+# %% [markdown]
 # ## 5 · Relocalise a kidnapped robot
 #
 # A robot moves in a room of 10 m by 8 m. The centre of the room is the origin. In every step the
@@ -319,15 +361,14 @@ ask(
 
 # %% [markdown]
 # What can you conclude if the next measurement is unexpected, too? From which poses is the first
-# measurement possible? If you sample some of these poses, which density has your proposal (task 4)?
+# measurement possible? If you sample some of these poses, which density has your proposal (task 3)?
 #
 # **Your task.** Write a step that relocalises the robot soon and is robust against false
 # measurements. Any method is allowed. The number of particles must not change. Weights must not
 # be negative, and not all of them may be 0. All that the function knows about earlier steps must
 # be in `rows` and `weights`. Do not use global variables for this: the check calls `find_again`
 # for the first step of all sixteen runs, then for the second step of all runs, and so on. If
-# your `log_likelihoods` or `draw` is wrong, the check uses a correct one in its place. The check
-# stops after 10 s.
+# your `draw` is wrong, the check uses a correct one in its place. The check stops after 10 s.
 #
 # *Near* means within 0.5 m of the robot. The *search* is the ten steps that follow the
 # kidnapping. The error of a step is the weighted mean distance of the particles from the robot.

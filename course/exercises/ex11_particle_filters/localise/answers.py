@@ -47,29 +47,6 @@ def localise(rows, weights, u, C, p, z, R, rng):
         weights = np.repeat(1 / n, n)
     return rows, weights
 
-# %% right: weights by hand, in logs
-def localise(rows, weights, u, C, p, z, R, rng):
-    n = len(weights)
-    moved = move(rows, u, C, rng)
-    l = np.log(weights) + log_likelihoods(moved, p, z, R)
-    l = l - l.max()
-    w = np.exp(l)
-    w = w / w.sum()
-    if 1 / (w @ w) >= n / 2:
-        return moved, w
-    return moved[draw(w, rng)], np.ones(n) / n
-
-# %% right: likelihood scaled to its maximum before multiplying
-def localise(rows, weights, u, C, p, z, R, rng):
-    new = move(rows, u, C, rng)
-    logs = log_likelihoods(new, p, z, R) + np.log(weights)
-    w = normalise(logs)
-    if 2 * effective_size(w) < len(new):
-        keep = draw(w, rng)
-        new = np.take(new, keep, axis=0)
-        w = np.repeat(1.0 / len(new), len(new))
-    return new, w
-
 # %% right: logarithms all the way, and each sample moved by itself
 def localise(rows, weights, u, C, p, z, R, rng):
     n = len(rows)

@@ -240,7 +240,7 @@ LOCALISE = Task(
             asks="How large is 1/Σ w² of the weights that you return?",
         ),
     ),
-    needs=("11-weigh", "11-draw"),
+    needs=("11-draw",),
     probes=(
         Probe("odometry errors that are correlated", runs.related_wheels, ("mean", "spread")),
         Probe("odometry that is nearly exact", runs.sure_wheels, EXACT),

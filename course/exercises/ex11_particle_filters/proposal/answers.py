@@ -88,31 +88,6 @@ def reweigh(before, after, weights, u, C, m, D):
     logs = np.log(weights) + log_density(e - u, Cs) - log_density(e - m, D)
     return normalise(logs)
 
-# %% right: vectorised, slogdet
-def reweigh(before, after, weights, u, C, m, D):
-    dx, dy = (after[:, :2] - before[:, :2]).T
-    th = before[:, 2]
-    e = np.stack([np.cos(th) * dx + np.sin(th) * dy, wrap(after[:, 2] - th)], axis=1)
-    v, w = e - u, e - m
-    target = -0.5 * np.einsum("ni,ij,nj->n", v, np.linalg.inv(C), v)
-    drawn = -0.5 * np.einsum("ni,nij,nj->n", w, np.linalg.inv(D), w)
-    drawn = drawn - 0.5 * np.linalg.slogdet(D)[1]
-    return normalise(np.log(weights) + target - drawn)
-
-# %% right: helper for the log density, with all constants
-def reweigh(before, after, weights, u, C, m, D):
-    def log_gauss(e, mean, cov):
-        v = e - mean
-        return -0.5 * v @ np.linalg.solve(cov, v) - 0.5 * np.linalg.slogdet(2 * np.pi * cov)[1]
-
-    logs = []
-    for a, b, w, mi, Di in zip(before, after, weights, m, D):
-        way = b[:2] - a[:2]
-        ahead = np.array([np.cos(a[2]), np.sin(a[2])])
-        e = np.array([way @ ahead, wrap(float(b[2] - a[2]))])
-        logs.append(np.log(w) + log_gauss(e, u, C) - log_gauss(e, mi, Di))
-    return normalise(np.array(logs))
-
 # %% right: scipy's log densities in a loop
 from scipy.stats import multivariate_normal
 
