@@ -94,6 +94,15 @@ def test_nees_does_not_hang_on_the_units_of_the_state():
     assert nees(error, P) == pytest.approx(error @ np.linalg.inv(P) @ error)
 
 
+def test_many_steps_of_many_runs_are_normalised_at_once():
+    rng = np.random.default_rng(9)
+    P = np.array([[random_covariance(rng, 3) for _ in range(4)] for _ in range(2)])
+    errors = rng.normal(size=(2, 4, 3))
+    at_once = nees(errors, P)
+    assert at_once.shape == (2, 4)
+    assert at_once[1, 2] == pytest.approx(nees(errors[1, 2], P[1, 2]))
+
+
 @pytest.mark.parametrize(
     ("call", "message"),
     [

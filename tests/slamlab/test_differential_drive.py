@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from slamlab.estimators.ekf_slam import Q_arc
-from slamlab.geometry import between, compose
+from slamlab.geometry import between, compose, inverse
 from slamlab.simulation.differential_drive import (
     DifferentialDrive,
     Simulator,
@@ -39,6 +39,17 @@ def test_an_arc_is_the_same_in_one_piece_or_in_many(left, right, base, pieces):
     for _ in range(pieces):
         pose = compose(pose, arc(left / pieces, right / pieces, base))
     assert_same_pose(pose, arc(left, right, base))
+
+
+@given(distances, distances, st.floats(0.1, 1))
+def test_driving_an_arc_back_returns_to_the_start(left, right, base):
+    assert_same_pose(compose(arc(left, right, base), arc(-left, -right, base)), np.zeros(3))
+    assert_same_pose(arc(-left, -right, base), inverse(arc(left, right, base)))
+
+
+def test_equal_wheels_drive_straight_and_opposite_ones_turn_on_the_spot():
+    np.testing.assert_allclose(arc(0.7, 0.7, 0.3), [0.7, 0, 0])
+    np.testing.assert_allclose(arc(-0.1, 0.1, 0.4), [0, 0, 0.5], atol=1e-15)
 
 
 def test_an_arc_stays_on_its_circle():
@@ -130,6 +141,13 @@ def test_constant_errors_of_the_scales_are_reported_as_deviations():
     assert modelled.distance_error == pytest.approx(0.01)
     assert modelled.turn_error == pytest.approx(np.hypot(0.01, 0.03))
     assert modelled.turn_per_metre == pytest.approx(0.02 / FINE.base)
+
+
+def test_the_same_generator_gives_the_same_run():
+    robot = replace(FINE, slip=0.05)
+    commands = [(0.4, 0.3, 1.0)] * 5
+    np.testing.assert_array_equal(driven(robot, commands, 1)[0], driven(robot, commands, 1)[0])
+    assert np.any(driven(robot, commands, 1)[0] != driven(robot, commands, 2)[0])
 
 
 def test_waypoint_following_reaches_every_waypoint_with_any_odometry():

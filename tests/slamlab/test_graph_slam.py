@@ -7,6 +7,7 @@ import pytest
 
 from slamlab import estimators, sources
 from slamlab.estimators.graph_slam import GraphSlam
+from slamlab.estimators.loop_closure import match_information
 from slamlab.estimators.runner import run
 from slamlab.geometry import between, compose
 from slamlab.models.parameters import RobotModel
@@ -58,6 +59,16 @@ def test_the_corridor_closes():
     assert errors(slam, truth).max() < 0.1
     assert false == 0
     assert loops > 0
+
+
+@pytest.mark.slow
+def test_without_loops_it_drifts_more():
+    with_loops, truth = toured("corridor", 3)
+    alone = GraphSlam(with_loops.robot, loops=False)
+    for reading in sources.open("sim:corridor", np.random.default_rng(3)):
+        alone.step(reading)
+    assert errors(with_loops, truth)[-1] < errors(alone, truth)[-1]
+    assert not any(edge.robust for edge in alone.graph.edges)
 
 
 def test_two_similar_rooms_are_not_confused():
@@ -164,6 +175,19 @@ def test_every_edge_of_a_graph_has_the_information_of_its_own_error(monkeypatch)
     assert len(strange) == 1
     x, y = np.diag(strange[0].information)[:2]
     assert x == y < 1e-3
+
+
+def test_a_loops_information_is_that_of_its_match_seen_from_where_it_leads():
+    world, rng, turn = worlds.corridor(), np.random.default_rng(2), np.array([0.2, 0.1, np.pi / 2])
+    place = np.array([4.0, 0.0, 0.0])
+    new, old = (
+        preprocess(RPLIDAR_A2.scan(world, p, rng).points()) for p in (compose(place, turn), place)
+    )
+    matched = match(new, old, turn)
+    along, across = np.diag(matched.covariance)[:2]
+    assert along > 20 * across
+    x, y = np.diag(match_information(matched))[:2]
+    assert x > 2 * y  # the one that looks across the corridor is sure of what lies ahead
 
 
 def test_a_robot_without_odometry_is_led_by_its_scans():

@@ -103,6 +103,17 @@ def test_a_beam_frees_its_ray_occupies_its_end_and_touches_nothing_beyond(pose, 
     assert (middles @ beam).max() < length + RESOLUTION
 
 
+def test_after_some_scans_the_room_is_free_and_its_walls_are_not():
+    place = np.array([-0.02, 0.03])
+    pose = np.append(place, 0.0)
+    scan = scan_of([ROOM, CHAIR], pose)
+    grid = build([pose] * 5, [scan] * 5, RESOLUTION)
+    assert (at(grid, place + scan.points()) == 1).all()
+    inside = place + scan.points() * np.linspace(0.05, 0.85, 20)[:, None, None]
+    states = at(grid, inside.reshape(-1, 2))
+    assert set(states) <= {0, 1} and (states == 0).mean() > 0.95
+
+
 def test_moved_furniture_vanishes_and_comes_back():
     pose = np.array([-0.02, 0.03, 0.4])
     with_chair, without = scan_of([ROOM, CHAIR], pose), scan_of([ROOM], pose)

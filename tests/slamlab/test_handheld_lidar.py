@@ -8,7 +8,7 @@ import pytest
 from slamlab.cli import main
 from slamlab.devices.clock import SimulatedClock
 from slamlab.files import SourceError
-from slamlab.geometry import compose
+from slamlab.geometry import compose, transform
 from slamlab.simulation import worlds
 from slamlab.simulation.pedestrian_gait import Walk
 from slamlab.simulation.pedestrians import BODY, WALKS, Carrier, Pedestrians, carrier
@@ -81,6 +81,21 @@ def test_the_walk_begins_standing_at_the_origin_and_touches_nothing(flat):
 
 
 @pytest.mark.parametrize("flat", WALKS)
+def test_every_room_is_entered(flat):
+    """From somewhere on the walk every piece of floor is seen."""
+    world, walk = worlds.by_name(flat), Walk(WALKS[flat], rng())
+    places = every(1.0, walk)[1][:, :2]
+    low, high = world.walls[:, :2].min(axis=0), world.walls[:, :2].max(axis=0)
+    floor = rng().uniform(low, high, (300, 2))
+    seen = np.zeros(len(floor), dtype=bool)
+    for place in places:
+        way = floor - place
+        ranges = world.cast(place, np.arctan2(*way.T[::-1]))
+        seen |= ranges > np.hypot(*way.T)
+    assert seen.mean() > 0.75  # the rest is within furniture, or behind it
+
+
+@pytest.mark.parametrize("flat", WALKS)
 def test_pedestrians_keep_their_distance_and_move_continuously(flat):
     for seed in range(3):
         body = carrier(flat, rng(seed))
@@ -131,6 +146,27 @@ def test_without_noise_each_point_lies_on_a_wall_from_where_it_was_measured(flat
         points = placed(source._reading(i), source.walk)
         assert len(points) > 300
         assert off_the_walls(source.world, points).max() < 1e-6
+
+
+def test_without_deskewing_the_points_lie_off_the_walls():
+    source = HandheldLidar("flat", rng(1), lidar=NOISELESS, tilt=0.0, people=0)
+    turns = np.abs(np.diff(source.truth.poses[:, 2]))
+    i = int(np.argmax(np.where(turns < 1, turns, 0))) + 1
+    reading = source._reading(i)
+    scan = reading.scan
+    keep = replace(scan, ranges=np.where(own(scan), np.nan, scan.ranges))
+    pose = source.walk.pose_at(np.array([reading.time]))[0]
+    skewed = off_the_walls(source.world, transform(pose, keep.points()))
+    assert np.quantile(skewed, 0.9) > 0.05
+
+
+@pytest.mark.parametrize(("name", "sigma"), [("A1", 0.03), ("A2", 0.004), ("C1", 0.015)])
+def test_with_a_models_noise_the_points_lie_about_the_walls(name, sigma):
+    source = HandheldLidar("flat", rng(2), lidar=RPLIDARS[name], tilt=0.0, people=0)
+    off = np.concatenate(
+        [off_the_walls(source.world, placed(source._reading(i), source.walk)) for i in (50, 200)]
+    )
+    assert 0.1 * sigma < np.median(off) < sigma
 
 
 def test_a_tilted_lidar_measures_longer_ranges_and_only_a_little():

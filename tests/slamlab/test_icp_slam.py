@@ -8,6 +8,7 @@ from slamlab.estimators.icp_slam import IcpSlam, stands_still
 from slamlab.estimators.runner import run
 from slamlab.geometry import between, compose, transform
 from slamlab.readings import Reading, Scan
+from slamlab.scanmatching import point_to_point
 from slamlab.simulation.range_scanners import RPLIDAR_A2
 from slamlab.simulation.worlds import polygon
 
@@ -141,6 +142,19 @@ def test_the_polygon_with_the_thesis_wrong_odometry_comes_out_right_in_100_of_10
         errors = between(source.truth.poses, result.trajectory.poses)
         assert np.hypot(errors[:, 0], errors[:, 1]).max() < 0.05, f"seed {seed}"
         assert np.abs(errors[:, 2]).max() < np.radians(2), f"seed {seed}"
+
+
+def test_trimming_corrects_what_plain_icp_makes_of_the_polygon():
+    plain, trimmed = [], []
+    for seed in range(5):
+        source = sources.open("sim:polygon", np.random.default_rng(seed))
+        clouds = [r.scan.points() for r in source]
+        poses = source.truth.poses
+        for i, motion in enumerate(between(poses[:-1], poses[1:])):
+            for keep, errors in ((1.0, plain), (0.8, trimmed)):
+                found = point_to_point(clouds[i + 1], clouds[i], motion, keep=keep)
+                errors.append(np.hypot(*between(motion, found.pose)[:2]))
+    assert np.median(trimmed) < np.median(plain)
 
 
 def test_dead_reckoning_is_the_sum_of_the_odometry():

@@ -84,6 +84,18 @@ def test_errors_have_the_standard_deviation_of_the_robot_and_sensor_models():
     assert np.abs(v[:, 0].mean()) < 0.01
 
 
+def test_landmark_positions_do_not_depend_on_the_noise():
+    np.testing.assert_array_equal(driven(7).landmarks, driven(7, QUIET).landmarks)
+
+
+def test_a_reading_log_keeps_what_was_seen(tmp_path):
+    source = driven(8, Loop(steps=20))
+    sources.write(source, tmp_path / "log")
+    for a, b in zip(source, sources.open(tmp_path / "log"), strict=True):
+        np.testing.assert_array_equal(a.observations.z, b.observations.z)
+        np.testing.assert_array_equal(a.observations.ids, b.observations.ids)
+
+
 @pytest.mark.parametrize(
     ("wrong", "message"),
     [

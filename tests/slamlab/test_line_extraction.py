@@ -150,6 +150,20 @@ def test_recall_is_relative_to_what_was_visible():
     assert found == seen < 10 < right
 
 
+def test_the_thesis_band_fails_with_range():
+    """A window of wall readings passes where the wall is near, hardly ever where it is far."""
+    share = {}
+    for size in ((3.0, 2.5), (8.0, 6.0)):
+        room = World(worlds.box((0, 0), size))
+        found = [
+            len(lines(LIDAR.scan(room, np.zeros(3), rng), LIDAR.model, rng, THESIS))
+            for rng in map(np.random.default_rng, range(10))
+        ]
+        share[size] = np.mean(found)
+    assert share[3.0, 2.5] > 3
+    assert share[8.0, 6.0] < 1
+
+
 def test_the_same_seed_finds_the_same_walls_and_each_beam_belongs_to_one():
     ((_, _, scan, _),) = scans("situation-1", 1)
     first, second = (lines(scan, LIDAR.model, np.random.default_rng(3)) for _ in range(2))

@@ -1,11 +1,12 @@
 """Models: round trips, agreement with the group; test_symbolic has their Jacobians."""
 
 import numpy as np
+import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from slamlab import models
-from slamlab.geometry import compose, inverse, transform
+from slamlab.geometry import compose, inverse, matrix, transform
 from slamlab.models import jacobians
 from tests.property_testing import (
     assert_same_pose,
@@ -23,6 +24,29 @@ from tests.property_testing import (
 @given(poses, observation_vectors)
 def test_the_landmark_put_where_it_was_seen_is_seen_there_again(x, z):
     np.testing.assert_allclose(models.h(x, models.g(x, z)), z, atol=1e-9)
+
+
+@given(poses, points)
+def test_the_landmark_seen_is_put_back_where_it_is(x, p):
+    np.testing.assert_allclose(models.g(x, models.h(x, p)), p, atol=1e-9)
+
+
+@given(poses, points, poses)
+def test_moving_robot_and_landmark_together_changes_no_observation(x, p, frame):
+    assume(np.hypot(*(p - x[:2])) > 0.1)
+    moved = (matrix(frame) @ np.append(p, 1))[:2]
+    r, bearing = models.h(x, p)
+    r_moved, bearing_moved = models.h(compose(frame, x), moved)
+    assert r_moved == pytest.approx(r)
+    assert abs(np.angle(np.exp(1j * (bearing - bearing_moved)))) < 1e-9
+
+
+def test_many_landmarks_are_seen_and_placed_at_once_as_one_by_one():
+    rng = np.random.default_rng(2)
+    x, p = np.array([1.0, -2.0, 2.5]), rng.normal(0, 5, (30, 2))
+    np.testing.assert_allclose(models.h(x, p), [models.h(x, q) for q in p])
+    z = models.h(x, p)
+    np.testing.assert_allclose(models.g(x, z), [models.g(x, one) for one in z])
 
 
 @given(poses, odometry_controls)

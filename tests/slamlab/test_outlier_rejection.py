@@ -108,6 +108,15 @@ def test_leaving_an_edge_out_saves_what_its_leverage_predicts():
         assert before - without.optimise().chi2 == pytest.approx(less, rel=0.02, abs=0.01)
 
 
+def test_a_trusted_false_edge_bends_the_graph():
+    graph, true = square_tour(np.random.default_rng(0))
+    without = deepcopy(graph)
+    without.optimise()
+    graph.add_edge(3, 20, compose(between(true[3], true[20]), [2, 2, 0.5]), INFORMATION)
+    graph.optimise()
+    assert largest_deviation(without, graph.poses, without.poses) > 5
+
+
 def ring_with_two_readings(right, false):
     """A long chain with ``right`` loops home, and ``false`` ones that agree on another place."""
     graph = PoseGraph()

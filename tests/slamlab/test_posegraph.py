@@ -1,20 +1,30 @@
 """Pose graphs: optimisation, and wrong use."""
 
+from copy import deepcopy
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.optimize import least_squares
 
-from slamlab.geometry import between
+from slamlab.geometry import between, compose
 from slamlab.posegraph import PoseGraph
-from tests.property_testing import assert_same_pose
+from tests.property_testing import assert_same_pose, poses
 from tests.slamlab.square_tour import (
     INFORMATION,
     largest_deviation,
     square_tour,
     whitened,
 )
+
+
+@given(st.integers(0, 10**6))
+def test_exact_measurements_bring_back_the_truth_and_cost_nothing(seed):
+    graph, true = square_tour(np.random.default_rng(seed), noise=0)
+    optimum = graph.optimise()
+    assert optimum.converged and optimum.chi2 < 1e-9
+    assert_same_pose(graph.poses, true, 1e-6)
 
 
 def lost(graph, rng):
@@ -73,6 +83,53 @@ def test_the_optimum_is_that_of_scipys_dense_least_squares(seed):
     assert optimum.chi2 == pytest.approx(2 * reference.cost, rel=1e-9)
     found = np.concatenate([graph.poses[:1], reference.x.reshape(-1, 3)])
     assert largest_deviation(graph, graph.poses, found) < 1e-3
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_the_optimum_is_that_of_gtsam(seed):
+    gtsam = pytest.importorskip("gtsam", reason="GTSAM, the reference, is not installed")
+    graph, _ = square_tour(np.random.default_rng(seed))
+    factors, guesses = gtsam.NonlinearFactorGraph(), gtsam.Values()
+    factors.add(gtsam.NonlinearEqualityPose2(0, gtsam.Pose2(*graph.poses[0])))
+    for k, pose in enumerate(graph.poses):
+        guesses.insert(k, gtsam.Pose2(*pose))
+    for edge in graph.edges:
+        noise = gtsam.noiseModel.Gaussian.Information(edge.information)
+        factors.add(gtsam.BetweenFactorPose2(edge.i, edge.j, gtsam.Pose2(*edge.measured), noise))
+    parameters = gtsam.LevenbergMarquardtParams()
+    parameters.setRelativeErrorTol(1e-12)
+    best = gtsam.LevenbergMarquardtOptimizer(factors, guesses, parameters).optimize()
+    reached = [best.atPose2(k) for k in range(len(graph))]
+    graph.optimise()
+    found = np.array([[pose.x(), pose.y(), pose.theta()] for pose in reached])
+    # GTSAM may measure an error along the group's geodesic: the same to first order
+    assert largest_deviation(graph, graph.poses, found) < 0.05
+
+
+@given(st.integers(0, 10**6), poses)
+def test_a_common_motion_of_all_guesses_moves_the_optimum_and_nothing_else(seed, moved):
+    graph, _ = square_tour(np.random.default_rng(seed), robust=True)
+    other = deepcopy(graph)
+    other.poses = compose(moved, other.poses)
+    first, second = graph.optimise(), other.optimise()
+    assert second.chi2 == pytest.approx(first.chi2, rel=1e-6)
+    graph.poses = compose(moved, graph.poses)
+    graph.fixed = other.fixed
+    assert largest_deviation(graph, graph.poses, other.poses) < 0.01
+
+
+def test_the_order_and_direction_of_edges_and_poses_do_not_matter():
+    rng = np.random.default_rng(3)
+    graph, _ = square_tour(rng)
+    order = np.concatenate([[0], 1 + rng.permutation(len(graph) - 1)])
+    shuffled, place = PoseGraph(), np.argsort(order)
+    for k in order:
+        shuffled.add_pose(graph.poses[k])
+    for k in rng.permutation(len(graph.edges)):
+        edge = graph.edges[k]
+        shuffled.add_edge(place[edge.i], place[edge.j], edge.measured, edge.information)
+    assert shuffled.optimise().chi2 == pytest.approx(graph.optimise().chi2, rel=1e-9)
+    assert largest_deviation(graph, graph.poses, shuffled.poses[place]) < 1e-3
 
 
 def test_a_lone_pose_is_its_own_optimum():

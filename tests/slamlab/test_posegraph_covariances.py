@@ -2,13 +2,32 @@
 
 import numpy as np
 import pytest
+from scipy.stats import chi2
 
+from slamlab.geometry import between, compose, wrap
 from slamlab.posegraph import PoseGraph, edge_error, edge_jacobians
 from tests.slamlab.square_tour import (
     INFORMATION,
+    SIDE,
+    SIGMA,
     square_tour,
     whitened,
 )
+
+
+@pytest.mark.slow
+def test_the_covariances_are_those_of_many_runs():
+    exact, true = square_tour(np.random.default_rng(0), noise=0, drift=0)
+    inverse = np.linalg.inv(exact.covariances()[1:])
+    seen, runs = [], 150
+    for seed in range(runs):
+        graph, _ = square_tour(np.random.default_rng([7, seed]))
+        graph.optimise()
+        error = (graph.poses - true)[1:]
+        error[:, 2] = wrap(error[:, 2])
+        seen.append(np.einsum("na,nab,nb->n", error, inverse, error))
+    # each pose's NEES has the mean of a χ² of 3 degrees, within what 150 runs can tell
+    assert np.abs(np.mean(seen, axis=0) - 3).max() < 6 * np.sqrt(6 / runs)
 
 
 def test_the_covariances_are_blocks_of_the_dense_inverse():
@@ -33,6 +52,23 @@ def test_the_covariances_are_blocks_of_the_dense_inverse():
     v = edge_error.error(graph.poses[i], graph.poses[j], z)
     expected = v @ np.linalg.inv(J @ P @ J.T + np.linalg.inv(INFORMATION)) @ v
     assert graph.squared_mahalanobis(i, j, z, INFORMATION) == pytest.approx(expected, rel=1e-4)
+
+
+def test_the_mahalanobis_distance_accepts_what_drift_explains_and_rejects_a_false_loop():
+    true_distances, wrong = [], []
+    for seed in range(100):
+        rng = np.random.default_rng([8, seed])
+        graph, true = square_tour(rng, laps=1)
+        del graph.edges[4 * SIDE :]  # the loop is not closed yet
+        graph.optimise()
+        seen = between(true[0], true[-1]) + SIGMA * rng.standard_normal(3)
+        both = np.array([seen, compose(seen, [2.0, 2.0, 0.5])])
+        a, b = graph.squared_mahalanobis([0, 0], [4 * SIDE] * 2, both, INFORMATION)
+        assert a == pytest.approx(graph.squared_mahalanobis(0, 4 * SIDE, seen, INFORMATION))
+        true_distances.append(a)
+        wrong.append(b)
+    assert np.mean(true_distances) == pytest.approx(3, abs=6 * np.sqrt(6 / 100))
+    assert np.median(wrong) > 2 * chi2(3).ppf(0.99)
 
 
 def test_landmarks_and_priors_have_the_covariances_of_the_dense_inverse():

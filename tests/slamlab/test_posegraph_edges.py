@@ -34,6 +34,17 @@ def test_jacobians_equal_finite_differences(x_i, x_j, z):
 
 
 @given(poses, st.integers(0, 10**6))
+def test_an_edges_information_is_the_inverse_of_the_covariance_propagated_to_its_error(z, seed):
+    P, angular = random_covariance(np.random.default_rng(seed)), np.array([False, False, True])
+    # at the true motion, which is z but for small errors: its error is 0 there
+    slope = finite_differences(lambda x: edge_error.error(np.zeros(3), z, x), z, angular)
+    scale = np.sqrt(np.diag(P))
+    propagated = slope @ P @ slope.T
+    claimed = np.linalg.inv(edge_error.information(z, P))
+    np.testing.assert_allclose(claimed / scale.max() ** 2, propagated / scale.max() ** 2, atol=1e-6)
+
+
+@given(poses, st.integers(0, 10**6))
 def test_an_edges_information_equals_its_derivation(z, seed):
     P = random_covariance(np.random.default_rng(seed))
     arguments = edge_symbolic.x_i, edge_symbolic.x_j, edge_symbolic.z

@@ -120,6 +120,16 @@ def test_a_wide_beam_returns_the_nearest_surface_in_its_cone():
     assert np.all(scan.ranges[seen] <= 2 / np.cos(scan.angles[seen]) + 1e-12)
 
 
+def test_a_beam_without_width_and_a_very_narrow_one_agree():
+    world, pose = room(), np.array([0.3, 0.2, 0.7])
+    narrow = replace(IDEAL, cone=1e-9)
+    np.testing.assert_allclose(
+        narrow.scan(world, pose, np.random.default_rng(0)).ranges,
+        IDEAL.scan(world, pose, np.random.default_rng(0)).ranges,
+        atol=1e-6,
+    )
+
+
 @pytest.mark.parametrize("scanner", [RPLIDAR_A2, GP2D120, ULTRASONIC])
 @pytest.mark.parametrize("share", [0.1, 0.5, 0.9])
 def test_an_estimator_gets_the_noise_of_its_source(scanner, share):

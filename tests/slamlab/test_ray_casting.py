@@ -164,6 +164,16 @@ def test_a_wall_without_length_is_a_point():
     np.testing.assert_allclose(ranges, [2.0, np.inf, np.inf])
 
 
+def test_a_circle_is_seen_from_outside_at_its_front_and_from_inside_at_its_rim():
+    circle = [[3.0, 0.0, 1.0]]
+    outside = cast((0.0, 0.0), [0.0, np.arcsin(1 / 3) - 1e-3, 0.4, np.pi], [], circle)
+    assert outside[0] == pytest.approx(2)
+    assert outside[1] == pytest.approx(np.sqrt(8), rel=0.05)
+    assert np.all(np.isinf(outside[2:]))
+    inside = cast((3.5, 0.0), [0.0, np.pi, np.pi / 2], [], circle)
+    np.testing.assert_allclose(inside, [0.5, 1.5, np.sqrt(0.75)])
+
+
 def test_nothing_to_see_is_infinitely_far_and_no_beams_give_no_ranges():
     np.testing.assert_array_equal(cast((0.0, 0.0), [0.0, 1.0], []), [np.inf, np.inf])
     assert cast((0.0, 0.0), [], [[1.0, 0.0, 1.0, 1.0]]).shape == (0,)

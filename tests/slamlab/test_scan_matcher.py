@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 
 from slamlab.geometry import between, compose, inverse, transform, wrap
 from slamlab.scanmatching import match, preprocess
-from slamlab.scanmatching.local_line_fits import estimate_range_noise
+from slamlab.scanmatching.correlative_matching import candidate_poses
+from slamlab.scanmatching.local_line_fits import estimate_range_noise, fit_scan_lines
 from slamlab.scanmatching.registration import all_above
 from slamlab.simulation import worlds
 from slamlab.simulation.range_scanners import RPLIDAR_A2, Scanner
@@ -73,6 +74,19 @@ def test_a_covariance_grows_with_the_noise_of_the_scans():
     assert (sizes[1] < 0.5 * sizes[2]).all()
 
 
+@settings(max_examples=25)
+@given(seeds, st.floats(-3.1, 3.1))
+def test_turning_both_clouds_turns_the_result(seed, turn):
+    source, target = scans(worlds.room(), PAIR, np.random.default_rng(seed))
+    frame = np.array([0.0, 0.0, turn])
+    plain = match(source, target, PAIR * 0.8)
+    guess = compose(compose(frame, PAIR * 0.8), inverse(frame))
+    turned = match(transform(frame, source), transform(frame, target), guess)
+    back = compose(compose(inverse(frame), turned.pose), frame)
+    # sectors of the round are where they were: pairs differ by a beam here and there
+    assert squared_mahalanobis(back - plain.pose, plain.covariance) < 0.5
+
+
 @settings(max_examples=15)
 @given(seeds, poses)
 def test_moving_both_clouds_moves_the_result_within_its_covariance(seed, frame):
@@ -84,6 +98,15 @@ def test_moving_both_clouds_moves_the_result_within_its_covariance(seed, frame):
     back = compose(compose(inverse(frame), moved.pose), frame)
     assert np.linalg.norm(pose_difference(back, PAIR)) < 0.015
     assert squared_mahalanobis(back - plain.pose, plain.covariance) < 40
+
+
+def test_exchanging_source_and_target_inverts_the_result_within_its_covariance():
+    differences = []
+    for source, target, _, guess in room_pairs(40):
+        there, back = match(source, target, guess), match(target, source, inverse(guess))
+        differences.append(squared_mahalanobis(inverse(back.pose) - there.pose, there.covariance))
+    # the same noise is in both; with noise of their own they would differ by 6
+    assert np.mean(differences) < 3
 
 
 @settings(max_examples=20)
@@ -201,6 +224,17 @@ def test_the_correlative_search_is_left_out_when_asked_and_kept_within_its_angle
     assert match(source, target, [0, 0, 2.6], search=3.0).good
 
 
+@settings(max_examples=20)
+@given(seeds, st.floats(-np.pi, np.pi))
+def test_the_correlative_search_finds_the_position_to_a_cell_for_every_turn(seed, turn):
+    true = np.array([0.5, -0.4, turn])
+    source, target = scans(worlds.room(), true, np.random.default_rng(seed))
+    found = candidate_poses(preprocess(source), preprocess(target), np.zeros(3))
+    cell = 4 * np.quantile(np.hypot(*target.T), 0.95) / 64
+    off = between(true, found)
+    assert ((np.hypot(off[:, 0], off[:, 1]) < 2.5 * cell) & (np.abs(off[:, 2]) < 0.15)).any()
+
+
 def test_in_a_room_that_looks_the_same_from_two_sides_the_guess_decides():
     hall = World(ring([(-3, -2), (3, -2), (3, 2), (-3, 2)]))
     clouds = scans(hall, [0.0, 0.0, 0.0], np.random.default_rng(2), place=[0, 0, 0])
@@ -218,6 +252,17 @@ def test_the_range_noise_is_estimated_from_the_scan_itself(sigma):
         scan = lidar.scan(hall, [0, 0, 0.1], np.random.default_rng(seed))
         estimates.append(estimate_range_noise(scan.ranges, step))
     assert np.mean(estimates) == pytest.approx(sigma, rel=0.15)
+
+
+def test_lines_of_a_scan_lie_in_its_walls_and_none_spans_a_jump():
+    # a wall 2 m ahead, and behind a door's edge one 4 m ahead
+    bearings = np.radians(np.arange(-60, 60))
+    depth = np.where(bearings < 0, 2.0, 4.0)
+    x, y = depth, depth * np.tan(bearings)
+    fits, _ = fit_scan_lines(x, y, np.hypot(x, y), np.radians(1), closed=False)
+    assert np.allclose(np.abs(fits.nx[fits.good]), 1)
+    assert np.allclose(np.abs(fits.offset[fits.good]), depth[fits.good])
+    assert fits.good.mean() > 0.9
 
 
 def test_ready_surfaces_give_what_their_clouds_give():

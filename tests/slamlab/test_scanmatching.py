@@ -1,6 +1,6 @@
 """Laws of ICP scan matching: rigid fit, point to point, point to line, normals."""
 
-from itertools import product
+from itertools import pairwise, product
 
 import numpy as np
 import pytest
@@ -72,6 +72,21 @@ def test_rigid_fit_is_a_rotation_even_where_a_reflection_fits_better(shape):
 small_errors = st.tuples(st.floats(-0.12, 0.12), st.floats(-0.12, 0.12), st.floats(-0.05, 0.05))
 
 
+@settings(max_examples=40, deadline=None)
+@given(small_errors, poses, seeds)
+def test_plain_icp_recovers_a_motion_exactly_where_each_point_is_nearest_to_its_own(
+    error, true, seed
+):
+    # posts 0.8 m apart or more, moved by less than half of that
+    grid = np.stack(np.meshgrid(np.arange(-2, 3), np.arange(-2, 3)), axis=-1).reshape(-1, 2)
+    target = grid + np.random.default_rng(seed).uniform(-0.1, 0.1, grid.shape)
+    found = point_to_point(transform(inverse(true), target), target, compose(true, error))
+    distance, turn = pose_difference(found.pose, true)
+    assert found.converged
+    assert distance < 1e-9
+    assert turn < 1e-9
+
+
 @settings(max_examples=25, deadline=None)
 @given(small_errors, poses)
 def test_point_to_line_recovers_a_motion_on_clean_walls(error, true):
@@ -81,6 +96,29 @@ def test_point_to_line_recovers_a_motion_on_clean_walls(error, true):
     assert found.converged
     assert distance < 2e-4
     assert turn < 2e-4
+
+
+@EACH
+def test_clouds_of_unequal_size_match(matcher):
+    target, source = outline(83), outline(40)
+    true = np.array([0.1, -0.06, 0.05])
+    found = matcher(transform(inverse(true), source), target)
+    distance, turn = pose_difference(found.pose, true)
+    assert distance < 0.01
+    assert turn < 0.005
+
+
+@settings(max_examples=30, deadline=None)
+@given(seeds, st.sampled_from([1.0, 0.8]))
+def test_the_squared_error_of_plain_icp_never_grows_from_round_to_round(seed, keep):
+    rng = np.random.default_rng(seed)
+    source, target = rng.normal(size=(40, 2)), rng.normal(size=(55, 2))
+    found = point_to_point(source, target, rng.normal(size=3), keep=keep, history=True)
+    squares = []
+    for look in found.history:
+        moved = transform(look.pose, source[look.pairs[:, 0]])
+        squares.append(np.sum((moved - target[look.pairs[:, 1]]) ** 2))
+    assert all(later <= earlier + 1e-9 for earlier, later in pairwise(squares))
 
 
 def test_plain_icp_takes_the_same_iterations_as_a_naive_implementation():
@@ -141,6 +179,18 @@ def test_trimming_tolerates_points_that_only_one_scan_saw():
     found = [point_to_point(source, target, keep=k).pose for k in (1.0, 0.8)]
     errors = [pose_difference(pose, true)[0] for pose in found]
     assert errors[1] < 1e-3 < errors[0]
+
+
+def test_point_to_line_is_nearer_the_truth_than_plain_icp_on_noisy_scans():
+    true, plain, lines = np.array([0.12, -0.08, 0.1]), [], []
+    for seed in range(20):
+        rng = np.random.default_rng(seed)
+        target = outline() + rng.normal(0, 0.01, outline().shape)
+        source = outline(57)
+        source = transform(inverse(true), source + rng.normal(0, 0.01, source.shape))
+        plain.append(pose_difference(point_to_point(source, target).pose, true)[0])
+        lines.append(pose_difference(point_to_line(source, target).pose, true)[0])
+    assert np.median(lines) < np.median(plain)
 
 
 def test_along_a_corridor_the_first_guess_stands():

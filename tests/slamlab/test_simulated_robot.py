@@ -50,6 +50,14 @@ def test_iterating_twice_gives_the_same_readings(name):
         np.testing.assert_array_equal(a.scan.ranges, b.scan.ranges)
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("name", SCANNED)
+def test_the_same_seed_gives_the_same_run_and_another_seed_another(name):
+    ranges = [next(iter(simulation(name, rng(s)))).scan.ranges for s in (1, 1, 2)]
+    np.testing.assert_array_equal(ranges[0], ranges[1])
+    assert not np.array_equal(ranges[0], ranges[2], equal_nan=True)
+
+
 @pytest.mark.parametrize("name", SCANNED)
 def test_each_run_starts_at_the_origin_without_odometry_and_time_goes_on(name):
     source = simulation(name, rng())

@@ -1,6 +1,8 @@
 """Logs in, readings out, whatever the damage."""
 
+import gzip
 import json
+import zlib
 from dataclasses import asdict
 
 import numpy as np
@@ -22,12 +24,24 @@ def flaser(i, ranges=(1.0, 1.5, 2.0, 81.83)):
 
 
 LINES = [flaser(i) for i in range(12)]
+WHOLE = ("\n".join(LINES) + "\n").encode()
 
 
 def opened(tmp_path, content, name="log"):
     path = tmp_path / name
     path.write_bytes(content.encode() if isinstance(content, str) else content)
     return sources.open(path)
+
+
+def test_a_carmen_line_is_read_as_the_format_specifies(tmp_path):
+    source = opened(tmp_path, WHOLE)
+    first, second = list(source)[:2]
+    assert len(source) == 12
+    assert (first.time, second.time) == (1000.25, 1001.25)
+    assert np.array_equal(first.odometry, np.zeros(3))
+    assert np.allclose(second.odometry, [0.1, 0.02, 0.05])
+    assert first.scan.valid.tolist() == [True, True, True, False]
+    assert np.allclose(first.scan.angles, np.radians([-90, -30, 30, 90]))
 
 
 @pytest.mark.parametrize("ending", ["\n", "\r\n"])
@@ -84,6 +98,37 @@ def test_missing_files_and_folders_are_named(tmp_path):
         sources.open(tmp_path / "nothing.log")
     with pytest.raises(SourceError, match="is a folder"):
         sources.open(tmp_path)
+
+
+PACKED = gzip.compress(WHOLE, mtime=0)
+
+
+@settings(max_examples=150)
+@given(st.integers(0, len(PACKED)))
+def test_any_truncation_of_a_gzip_log_keeps_every_whole_line(tmp_path_factory, cut):
+    kept = zlib.decompressobj(31).decompress(PACKED[:cut])
+    whole = kept.count(b"\n")
+    path = tmp_path_factory.mktemp("cut") / "log.gz"
+    path.write_bytes(PACKED[:cut])
+    try:
+        source = sources.open(path)
+    except SourceError:
+        assert whole == 0
+        return
+    assert whole <= len(source) <= whole + 1
+    assert [r.time for r in source] == [1000.25 + i for i in range(len(source))]
+    assert (cut == len(PACKED)) == (not source.damage["file truncated"])
+
+
+@settings(max_examples=150)
+@given(st.integers(0, len(WHOLE)), st.binary(min_size=0, max_size=30))
+def test_junk_anywhere_in_a_log_costs_at_most_the_lines_it_touches(tmp_path_factory, at, junk):
+    path = tmp_path_factory.mktemp("junk") / "log"
+    path.write_bytes(WHOLE[:at] + junk + WHOLE[at:])
+    source = sources.open(path)
+    times = {r.time for r in source}
+    touched = WHOLE[:at].count(b"\n")
+    assert times >= {1000.25 + i for i in range(12) if abs(i - touched) > 1}
 
 
 class Given(Source):

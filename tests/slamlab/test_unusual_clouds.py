@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from slamlab.deskewing import deskew, merge_scans
 from slamlab.geometry import between, compose
 from slamlab.readings import Scan
-from slamlab.scanmatching import match, point_to_line, preprocess
+from slamlab.scanmatching import match, normals, point_to_line, preprocess
 from slamlab.scanmatching.beam_order import ordered_beams
 from slamlab.scanmatching.submap import build_submap
 from slamlab.simulation import worlds
@@ -146,6 +146,27 @@ def test_merged_turns_are_a_scan_and_as_much_better_as_they_are_more(lidar, kind
 def test_merged_turns_in_any_order_are_matched_no_worse_than_one(lidar, kind, matcher):
     one = error_of_merged(lidar, matcher, 1, "at rest", runs=4)
     assert error_of_merged(lidar, matcher, 10, kind, shuffled=True, runs=4) < 3 * one
+
+
+@pytest.mark.parametrize("kind", ["at rest", "moving"])
+def test_normals_of_merged_turns_stand_across_the_walls(kind):
+    rng = np.random.default_rng(0)
+    cloud = merged(NOISY, PLACE, 10, rng, kind)
+    clean = Scanner(4000, range_error=0.0).scan(worlds.by_name("room"), PLACE, rng).points()
+    nearest = np.argmin(np.hypot(*(clean[None] - cloud[::20, None]).transpose(2, 0, 1)), axis=1)
+    cosine = np.abs(np.einsum("ij,ij->i", normals(clean)[nearest], normals(cloud)[::20]))
+    assert np.nanmedian(cosine) > 0.99
+    assert np.isfinite(cosine).mean() > 0.7
+
+
+@pytest.mark.parametrize("turns", [1, 5])
+def test_a_submap_of_merged_turns_is_as_dense_as_they_are_sharp(turns):
+    rng, lidar = np.random.default_rng(0), NOISY
+    made = [preprocess(merged(lidar, PLACE, turns, rng, "at rest")) for _ in range(4)]
+    submap = build_submap(made, np.zeros((4, 3)))
+    assert len(submap) < 4 * lidar.beams
+    found = match(merged(lidar, compose(PLACE, MOTION), turns, rng, "at rest"), submap, MOTION)
+    assert error(found)[0] < 0.006
 
 
 @pytest.mark.parametrize("shuffled", [False, True])

@@ -73,3 +73,15 @@ def test_a_file_that_is_not_text_is_refused_by_name(tmp_path):
     for path in (tmp_path / "w.png", tmp_path / "none.txt", tmp_path):
         with pytest.raises(WorldFileError, match=path.name):
             load(path)
+
+
+@pytest.mark.parametrize("walls", [30_000, pytest.param(1_000_000, marks=pytest.mark.slow)])
+def test_a_million_walls_work(tmp_path, walls):
+    rng = np.random.default_rng(0)
+    start = rng.uniform(-500, 500, (walls, 2)).round(3)
+    path = tmp_path / "city.txt"
+    rows = np.hstack([start, start + rng.uniform(0.1, 2, start.shape).round(3)])
+    np.savetxt(path, rows, fmt="%.3f")
+    world = load(path)
+    assert len(world.walls) == walls
+    assert np.isfinite(world.cast((0.0, 0.0), np.linspace(0, 6, 100))).any()

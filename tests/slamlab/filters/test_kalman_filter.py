@@ -35,6 +35,30 @@ def test_it_agrees_with_filterpy(seed, n, m):
         assert np.allclose(ours.P, peer.P, rtol=1e-12, atol=1e-12)
 
 
+@given(st.integers(0, 2**32), st.integers(1, 5), st.integers(1, 8))
+@settings(max_examples=40, deadline=None)
+def test_a_batch_update_is_least_squares_in_information_form(seed, n, m):
+    rng = np.random.default_rng(seed)
+    b, z, H, R = problem(rng, n, m)
+    after, _ = update(b, z, H, R)
+    information = np.linalg.inv(b.P) + H.T @ np.linalg.solve(R, H)
+    vector = np.linalg.solve(b.P, b.x) + H.T @ np.linalg.solve(R, z)
+    assert np.allclose(after.P, np.linalg.inv(information), rtol=1e-8, atol=1e-9)
+    assert np.allclose(after.x, np.linalg.solve(information, vector), rtol=1e-8, atol=1e-8)
+
+
+@given(st.integers(0, 2**32), st.floats(1e-3, 1))
+@settings(max_examples=40, deadline=None)
+def test_any_other_gain_has_a_larger_trace(seed, size):
+    rng = np.random.default_rng(seed)
+    b, z, H, R = problem(rng, 4, 2)
+    after, step = update(b, z, H, R)
+    K = step.K + size * rng.normal(size=(4, 2))
+    I_KH = np.eye(4) - K @ H
+    other = I_KH @ b.P @ I_KH.T + K @ R @ K.T
+    assert np.trace(other) > np.trace(after.P)
+
+
 def test_a_step_reports_innovation_gain_and_nis():
     b, z, H, R = problem(np.random.default_rng(1), 4, 2)
     after, step = update(b, z, H, R)

@@ -29,6 +29,14 @@ def test_weights_sum_to_one_and_keep_their_ratios(logs):
     assert np.isclose(np.exp(total - logs.max()), np.exp(logs - logs.max()).sum())
 
 
+@given(logs, st.floats(-1e5, 1e5))
+def test_a_common_factor_changes_no_weight_and_moves_the_total(logs, offset):
+    weights, total = normalise(logs)
+    moved, moved_total = normalise(logs + offset)
+    np.testing.assert_allclose(moved, weights, rtol=1e-9, atol=1e-12)
+    assert np.isclose(moved_total, total + offset, rtol=1e-12, atol=1e-8)
+
+
 def test_weights_that_are_all_zero_become_equal_and_the_total_shows_it():
     weights, total = normalise(np.full(4, -np.inf))
     np.testing.assert_array_equal(weights, np.full(4, 0.25))
@@ -64,6 +72,17 @@ def test_systematic_resampling_equals_filterpys_for_the_same_random_number(seed,
         )
 
 
+@given(st.integers(0, 2**32), st.integers(1, 60), st.integers(1, 300))
+def test_systematic_resampling_gives_each_particle_its_share_rounded_up_or_down(seed, m, n):
+    rng = np.random.default_rng(seed)
+    weights = rng.dirichlet(np.full(m, 0.3))
+    drawn = systematic(weights, n, rng)
+    assert len(drawn) == n
+    assert (np.diff(drawn) >= 0).all()
+    copies = np.bincount(drawn, minlength=m)
+    assert (np.abs(copies - n * weights) < 1 + 1e-9).all()
+
+
 @pytest.mark.parametrize("draw", [systematic, multinomial])
 def test_a_particle_of_weight_zero_is_never_drawn(draw):
     # ten tenths do not sum to one
@@ -84,3 +103,18 @@ def test_independent_draws_follow_the_weights():
     assert (copies[~some] == 0).all()
     distance = ((copies - expected)[some] ** 2 / expected[some]).sum()
     assert distance < chi2.ppf(1 - FALSE_ALARM, some.sum() - 1)
+
+
+def test_systematic_resampling_draws_each_particle_in_proportion_to_its_weight():
+    """Over seeds: copies are ⌊n w⌋ and one more with the probability of the rest, so each
+    sample's sum over seeds is binomial, and its standard score squared is χ² of one degree."""
+    weights, n, runs = some_weights(4, 12), 30, 4000
+    extra = np.zeros(12)
+    whole = np.floor(n * weights)
+    for seed in range(runs):
+        extra += np.bincount(systematic(weights, n, np.random.default_rng(seed)), minlength=12)
+    rest = n * weights - whole
+    some = rest > 0
+    scores = (extra - runs * n * weights)[some] / np.sqrt(runs * rest * (1 - rest))[some]
+    # the samples share a random number: each is tried on its own, at its part of the false alarm
+    assert (scores**2).max() < chi2.ppf(1 - FALSE_ALARM / some.sum(), 1)

@@ -65,6 +65,16 @@ def test_joined_maps_are_consistent():
     assert low < np.mean(found) < high
 
 
+def test_the_covariance_is_one_and_each_landmark_stands_once():
+    source = LandmarkRun(LOOP, np.random.default_rng(5))
+    whole = in_submaps(source)
+    assert len(set(whole.ids)) == len(whole.ids) == len(whole.landmarks())
+    np.testing.assert_allclose(whole.P, whole.P.T, atol=1e-12)
+    assert np.linalg.eigvalsh(whole.P).min() > -1e-12
+    off = whole.landmarks() - source.landmarks[whole.ids]
+    assert np.hypot(*off.T).max() < 1.0
+
+
 def test_one_submap_is_the_map_itself():
     source = LandmarkRun(LOOP, np.random.default_rng(6))
     full, whole = at_once(source), JoinedMap()

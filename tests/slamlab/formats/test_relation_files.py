@@ -4,12 +4,15 @@ import gzip
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from slamlab.cli.run_results import error_table
 from slamlab.evaluation import Relations, load_relations, relations_error
 from slamlab.files import SourceError
 from slamlab.geometry import between
 from slamlab.readings import Trajectory
+from tests.slamlab.formats.mutations import mutated
 
 RNG = np.random.default_rng(8)
 TIMES = 1e9 + 0.25 * np.arange(30)
@@ -91,6 +94,21 @@ def test_relations_of_another_clock_are_refused_with_the_reason(times, why):
     relations = Relations(TIMES[PAIRS], WANTED)
     with pytest.raises(ValueError, match=f"none of the 50 relations .*{why}"):
         relations_error(Trajectory(times, POSES), relations)
+
+
+VALID = [content.encode() for content in READABLE.values()]
+
+
+@given(st.sampled_from(VALID).flatmap(mutated))
+def test_a_mutated_file_raises_nothing_but_a_source_error(tmp_path_factory, content):
+    path = tmp_path_factory.mktemp("mutated") / "relations"
+    path.write_bytes(content)
+    try:
+        found = load_relations(path)
+    except SourceError:
+        return
+    assert len(found.poses) == len(found.stamps) > 0
+    assert np.isfinite(found.poses).all()
 
 
 def test_a_run_reports_what_its_errors_leave_out():
