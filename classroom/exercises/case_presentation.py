@@ -121,6 +121,7 @@ PRESENTATIONS = {
     ),
     "14-nodes": CasePresentation(shown=_cut("nodes")),
     "14-sweep": CasePresentation(shown=_sweep),
+    "14-deskew": CasePresentation(shown=_cut("points")),
     "15-step": CasePresentation(
         "step is given poses, and edges (i, j, z, Λ) from the rows of the other arrays:"
     ),

@@ -1250,7 +1250,7 @@ naive_off, corrected_off = trials.errors(seen_live.pair.estimator, true.poses[-1
 #
 # **Exercise:**
 # [14 · Devices and live SLAM: RPLIDAR and eMIR](../exercises/ex14_devices_and_live_slam.ipynb). You
-# decode the bytes of this lidar and of an unknown lidar, write commands, unwrap counters, and find
+# decode the bytes of this lidar and of an unknown lidar, deskew a scan, unwrap counters, and find
 # faults in given drivers.
 
 # %% [markdown] slideshow={"slide_type": "slide"}

@@ -10,9 +10,6 @@ from classroom.exercises.function_calls import (
     to_array,
 )
 
-LONGEST = 24
-"""Number of compared characters of a command; a right command has ten."""
-
 
 def _table(value, function, columns, expected):
     found = to_array(value, function)
@@ -45,19 +42,6 @@ def call_nodes(functions, inputs):
     return {"nodes": nodes, "count": count}
 
 
-def call_command(functions, inputs):
-    """Call "command"; return {"codes": (n, LONGEST) characters, then zeros}."""
-    codes = np.zeros((len(inputs["speed"]), LONGEST))
-    for row, (speed, turn) in zip(codes, argument_rows(inputs), strict=True):
-        text = functions["command"](int(speed), int(turn))
-        if not isinstance(text, str):
-            what = "None" if text is None else type(text).__name__
-            raise StudentError("malformed", f"command returned {what}, expected a string (str)")
-        shown = [min(ord(character), 255) for character in text[:LONGEST]]
-        row[: len(shown)] = shown
-    return {"codes": codes}
-
-
 def call_sweep(functions, inputs):
     """Call "sweep"; return {"taken": (n,) 0 for None, "count": (n,) numbers of rows, "rays":
     (n, m, 2), `heard`: (n,) bytes}.
@@ -73,6 +57,14 @@ def call_sweep(functions, inputs):
     # with the number of bytes, refusing all packets is a mistake and not a degenerate answer
     length = (inputs["data"] >= 0).sum(axis=1).astype(float)
     return {"taken": taken, "count": count, "rays": rays, "heard": length}
+
+
+def call_deskew(functions, inputs):
+    """Call "deskew" for each scan; return {"points": (n, k, 2), "count": (n,) of points}."""
+    found = [functions["deskew"](*row) for row in argument_rows(inputs)]
+    tables = [_table(points, "deskew", 2, "(m, 2)") for points in found]
+    points, count = _pad(tables, inputs["ranges"].shape[1])
+    return {"points": points, "count": count}
 
 
 def call_trials(functions, inputs):
@@ -105,7 +97,7 @@ def call_trials(functions, inputs):
 
 CALLS = {
     "14-nodes": FunctionCall(("nodes",), call_nodes),
-    "14-command": FunctionCall(("command",), call_command),
+    "14-deskew": FunctionCall(("deskew",), call_deskew),
     "14-unwrap": FunctionCall(("unwrap",)),
     "14-sweep": FunctionCall(("sweep",), call_sweep),
     "14-trials": FunctionCall(("trials",), call_trials),

@@ -1,9 +1,9 @@
 # %% [markdown]
 # # Exercise 14 · Devices and live SLAM: RPLIDAR and eMIR
 #
-# **You will be able to** decode the bytes of two lidars, one of them only from its data sheet; compute the checksum of
-# a drive command; unwrap a counter that overflows; and write test cases that detect the faults of drivers whose code
-# you cannot see.
+# **You will be able to** decode the bytes of two lidars, one of them only from its data sheet; deskew a scan that was
+# measured while the robot moved; unwrap a counter that overflows; and write test cases that detect the faults of
+# drivers whose code you cannot see.
 #
 # **60 minutes. Before:** lesson [14 · Devices and live SLAM: RPLIDAR and eMIR](../notebooks/14_devices_and_live_slam.ipynb).
 #
@@ -191,50 +191,80 @@ def sweep(data):
 check("14-sweep")
 
 # %% [markdown]
-# ## 3 · Encode a drive command
+# ## 3 · Deskew a scan
 #
-# eMIR receives text frames, `#OOVVTTCC/`: four bytes as two hexadecimal digits each. OO is the opcode, 01 for a
-# drive command. VV is the speed and TT the turn rate, both in percent. A negative number is sent as its two's
-# complement, for example −50 as 256 − 50. The checksum CC makes the sum of all four bytes 0 modulo 256 (14.6). The
-# hexadecimal digits A to F may be upper or lower case.
+# A lidar needs a tenth of a second or more for a scan, and the robot drives and turns in this time. So each beam was
+# measured from another pose. **Deskewing** transforms all points into one frame, here that of the robot *at the time
+# of the last beam*.
 #
-# **Your task.** Return the frame of a drive command. A joystick may send any whole number, so limit speed and turn to
-# the interval from −100 to 100.
+# The lidar is at the robot's origin. It turns **clockwise** with constant speed, one revolution in `period` seconds.
+# It measured the first beam at the time `begin`. A scan is less than one revolution. It may begin at any bearing, and
+# its beams are not evenly spaced. The first and the last beam count even if they have no return.
 #
-# First compute two checksums with pencil and paper: for speed −40 and turn 39, and for speed −1 and turn −1. Does the
-# rule "256 minus the other three bytes" give the same results?
+# Odometry states the pose at a few times, which begin before the scan and end after it. Between two of them, assume
+# that $x$, $y$ and $\theta$ change uniformly, and that $\theta$ turns by less than π. The robot may change its speed
+# from one odometry pose to the next.
+#
+# The bearings of three beams are −160°, 170° and 100°, in this order, and `period` is 0.1 s. At which times after
+# `begin` were the last two measured? And which heading is half way between the headings 179° and −179°?
+#
+# **Your task.** Return the points of all beams with a return, in the order of the beams. The check accepts an error of
+# $10^{-6}$, relative to the largest coordinate of the scan.
+#
+# | law | what must be right | points |
+# | --- | --- | --- |
+# | counted | the number of points (only together with other laws) | 0.5 |
+# | turning | the points, if the robot turns on the spot with a constant turn rate, and the scan begins behind it | 1 |
+# | driving | the points, if it drives straight ahead with a constant speed, and the scan begins behind it | 1 |
+# | both | the points, if it drives, turns and changes its speed, with any first bearing and heading | 1.5 |
 
 
-# %% name="command"
-def command(speed, turn):
-    """Encode a drive command for eMIR.
+# %% name="deskew"
+def deskew(bearings, ranges, begin, period, times, poses):
+    """The points of a scan of a moving robot, in the robot frame at the time of the last beam.
 
-    speed, turn : int, any whole numbers [%];  returns str, such as "#013200CD/"
+    bearings : (n,) [rad], −π to π, counter-clockwise from the front, in the order of measurement
+    ranges : (n,) [m], NaN for no return;  begin : time of the first beam [s];  period : [s]
+    times : (k,) ascending [s], poses : (k, 3) odometry [m, m, rad], headings −π to π
+    returns (m, 2) [m], one row for each beam with a return; an empty array or list without any
     """
     ### BEGIN SOLUTION
-    data = [1] + [max(-100, min(100, each)) % 256 for each in (speed, turn)]
-    return "#" + "".join(f"{byte:02X}" for byte in [*data, -sum(data) % 256]) + "/"
+    turned = (bearings[0] - bearings) % (2 * np.pi)
+    t = begin + period * turned / (2 * np.pi)
+    heading = np.unwrap(poses[:, 2])
+    x, y, theta = (np.interp(t, times, each) for each in (*poses[:, :2].T, heading))
+    px = x + ranges * np.cos(theta + bearings)
+    py = y + ranges * np.sin(theta + bearings)
+    dx, dy = px - x[-1], py - y[-1]
+    c, s = np.cos(theta[-1]), np.sin(theta[-1])
+    points = np.column_stack([c * dx + s * dy, c * dy - s * dx])
+    return points[~np.isnan(ranges)]
     ### END SOLUTION
 
 
 # %%
-check("14-command")
+check("14-deskew")
 
 # %% [markdown]
-# Does the robot accept your commands? The next cell tests all 40 401 of them with the robot's own decoder. (A printed
-# driver, in the appendix [In print](../notebooks/in_print.ipynb), encodes about half of them correctly.)
+# The wall to the right of this robot was measured by the first and by the last beams. Why has it a kink before
+# deskewing, and why a gap after it? (The robot turns to the left, the lidar to the right.)
 
 
-# %% name="all-commands"
+# %% name="moving-robot"
 @attempt
 def _():
-    from slamlab.devices.emir.frames import COMMAND, Framer
-    from slamlab.views.notebook_output import grouped
-
-    every = range(-100, 101)
-    sent = "".join(command(speed, turn) for speed in every for turn in every)
-    understood = Framer(COMMAND).feed(sent.encode())
-    print(grouped(len(understood)), "of 40 401 commands are accepted")
+    turned = np.arange(0, 2 * np.pi, np.radians(1))
+    bearings = (-1.6 - turned + np.pi) % (2 * np.pi) - np.pi
+    times, poses = np.array([0.0, 0.2]), np.array([[0.0, 0.0, 3.0], [0.1, 0.05, 3.3]])
+    x, y, theta = (np.interp(0.1 + 0.1 * turned / 2 / np.pi, times, each) for each in poses.T)
+    beams = zip(x, y, theta + bearings, strict=True)
+    ranges = np.array([worlds.room().cast(np.array([a, b]), [c])[0] for a, b, c in beams])
+    clouds = {
+        "before": ranges[:, None] * np.column_stack([np.cos(bearings), np.sin(bearings)]),
+        "deskewed": deskew(bearings, ranges, 0.1, 0.1, times, poses),
+    }
+    fig, _ = views.side_by_side({k: [Points("scan", v)] for k, v in clouds.items()}, size=(9, 4.6))
+    views.show(fig, alt="A scan of a room; only after deskewing all walls are straight.")
 
 
 # %% [markdown]
@@ -267,7 +297,7 @@ check("14-unwrap")
 ask(
     "ex14-raw",
     "Ten times a second eMIR sends a status: a `*`, 17 bytes as hexadecimal digits, and a `/`. The "
-    "path counter is byte 14. Your `command` makes an emulated eMIR drive along a corridor, 4 m forwards "
+    "path counter is byte 14. An emulated eMIR drives along a corridor, 4 m forwards "
     "at 40 cm/s and then 2 m backwards at 20 cm/s. **How does the raw counter change over time?**",
     {
         "it rises to 127 and stays there": "a byte does not stop at its largest value. One more is −128.",
@@ -282,7 +312,7 @@ ask(
 # %% name="corridor" answers="ex14-raw"
 @attempt
 def _():
-    from slamlab.devices.emir.commands import info
+    from slamlab.devices.emir.commands import info, move
     from slamlab.devices.emulator.emir_emulator import EmirEmulator
     from slamlab.devices.emulator.emulated_robot import EmulatedRobot
 
@@ -290,7 +320,7 @@ def _():
     emir.feed(info(True), 0.0)
     said = []
     for begin, speed, seconds in ((0, 100, 10), (10, -50, 10)):
-        emir.feed(command(speed, 0).encode(), begin)
+        emir.feed(move(speed, 0), begin)
         said += [emir.feed(b"", begin + 0.1 * k) for k in range(1, 10 * seconds + 1)]
     bytes_14 = [int(text[29:31], 16) for text in said if len(text) == 36]
     path = np.array([byte - 256 if byte > 127 else byte for byte in bytes_14])

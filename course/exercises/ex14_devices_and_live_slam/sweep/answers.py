@@ -123,19 +123,6 @@ def sweep(data):
     hit = mm > 0
     return np.column_stack([-np.radians(psi[hit]), mm[hit] / 1000])
 
-# %% right: vectorised
-def sweep(data):
-    raw = np.frombuffer(bytes(data), dtype=np.uint8).astype(int)
-    n = raw[1]
-    if raw[0] != 0x54 or len(raw) != 7 + 3 * n or raw[:-1].sum() % 256 != raw[-1]:
-        return None
-    a, b = raw[2] + 256 * raw[3], raw[-3] + 256 * raw[-2]
-    span = (b - a) % 36000
-    angle = a + (np.arange(n) / (n - 1) * span if n > 1 else np.zeros(n))
-    body = raw[4:-3].reshape(-1, 3)
-    r = body[:, 0] + 256 * body[:, 1]
-    return np.column_stack([-np.deg2rad(angle / 100), r / 1000])[r > 0]
-
 # %% right: struct and linspace, positive angles
 import struct
 
