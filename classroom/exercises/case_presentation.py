@@ -38,12 +38,12 @@ def _cut(name):
     return shown
 
 
-def _logarithms(inputs, outputs):
+def _logarithm(inputs, outputs):
     if not outputs:
         return inputs, {}
-    logs, finite = outputs["logs"], outputs["finite"]
+    finite = outputs["finite"]
     odd = np.select([finite == -1, finite == -2], [-np.inf, np.inf], np.nan)
-    return inputs, {"result": np.where(finite > 0, logs, odd)}
+    return inputs, {"result": np.where(finite > 0, outputs["log"], odd)}
 
 
 def _one_draw(inputs, outputs):
@@ -75,11 +75,11 @@ STEPS = (
 PRESENTATIONS = {
     "02-ray-wall": CasePresentation(shown=_distance),
     "02-echo": CasePresentation(shown=_distance),
-    "02-to-points": CasePresentation(shown=_cut("points")),
     "02-noise": CasePresentation(
         "noisy is called twice with rng = np.random.default_rng([seed, 0]), and then with "
         "np.random.default_rng([seed, 1]). It is given"
     ),
+    "02-beam": CasePresentation(shown=_logarithm),
     "05-alternate": CasePresentation(
         returned="it returns xs, Ps and a dict. The dict contains these p and P (here L), in the "
         "order of the ids:"

@@ -1348,8 +1348,8 @@ compare(C, noise.C_wheels((0.23, 0.2), slip=0.01, base=0.3))
 # You can compute a scan by ray casting and transform it into the world frame. You can test a statement about the
 # noise of a sensor. You can also compute odometry and its covariance from the distances of two wheels.
 #
-# **Exercise:** [cast rays, simulate echoes, place a scan, and estimate the noise of a sensor in a busy
-# room](../exercises/ex02_sensors_and_worlds.ipynb), 60 minutes.
+# **Exercise:** [cast rays, simulate echoes and noise, evaluate the likelihood of a scan, and estimate the noise of a
+# sensor in a busy room](../exercises/ex02_sensors_and_worlds.ipynb), 60 minutes.
 #
 # **Next:** every measurement has noise, and the estimate of the pose is uncertain, too. How much weight should
 # each of them get? [03 · The Kalman filter](03_kalman_filter.ipynb) derives this weight. The sections below

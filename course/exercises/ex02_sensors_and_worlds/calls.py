@@ -10,6 +10,7 @@ from classroom.exercises.function_calls import (
     to_shaped_array,
 )
 
+MOST = 1e8  # clips wrong logarithms; no right one is larger
 FAR = 1e6  # clips the distance to a line that is nearly parallel to the beam [m]
 NOTHING, FINITE, INFINITE = 0, 1, 2  # NaN, a number, infinity
 NAMES = ("error", "blocked")
@@ -36,29 +37,6 @@ def distance_call(function):
     return run
 
 
-def call_to_points(functions, inputs):
-    """Call to_points for each scan; return {"points": (n, k, 2), padded with zeros, "count": (n,)}.
-    Raise StudentError "malformed" for a shape other than (k, 2), too many points or NaN."""
-    most = inputs["degrees"].shape[1]
-    points, count = np.zeros((len(inputs["degrees"]), most, 2)), []
-    for i, row in enumerate(argument_rows(inputs)):
-        found = to_array(functions["to_points"](*row), "to_points")
-        if not found.size:  # a list to which nothing was appended
-            found = found.reshape(0, 2)
-        if found.ndim != 2 or found.shape[1] != 2 or len(found) > most:
-            turned = " (transposed?)" if found.ndim == 2 and found.shape[0] == 2 else ""
-            raise StudentError(
-                "malformed", f"to_points returned shape {found.shape}, expected (k, 2){turned}"
-            )
-        if np.isnan(found).any():
-            raise StudentError(
-                "malformed", "to_points returned NaN: leave out beams without a measured range"
-            )
-        points[i, : len(found)] = found
-        count.append(float(len(found)))
-    return {"points": points, "count": np.array(count)}
-
-
 def call_noisy(functions, inputs):
     """Call noisy twice with one seed, then with another; return {"state": (n, 3, k) of NOTHING,
     FINITE, INFINITE, "ranges": (n, 3, k), 0 where not finite}. Raise StudentError "malformed" if a
@@ -71,6 +49,17 @@ def call_noisy(functions, inputs):
         ]
         calls.append(_with_flags([_one_per_beam(result, "noisy", beams) for result in found]))
     return {name: np.stack([c[name] for c in calls], axis=1) for name in ("state", "ranges")}
+
+
+def call_log_likelihood(functions, inputs):
+    """Call log_likelihood for each scan; return {"log": (n,), 0 where not finite, "finite": (n,),
+    1, or 0 for NaN, −1 for −∞, −2 for ∞}. Raise StudentError "malformed" if a result is not one
+    number."""
+    call = functions["log_likelihood"]
+    results = [to_shaped_array(call(*row), "log_likelihood", ()) for row in argument_rows(inputs)]
+    logs = np.array(results)
+    finite = np.select([np.isfinite(logs), logs == -np.inf, logs == np.inf], [1.0, -1.0, -2.0])
+    return {"log": np.where(finite > 0, np.clip(logs, -MOST, MOST), 0.0), "finite": finite}
 
 
 def call_busy_fit(functions, inputs):
@@ -110,7 +99,7 @@ def _with_flags(results):
 CALLS = {
     "02-ray-wall": FunctionCall(("ray_wall",), run=distance_call("ray_wall")),
     "02-echo": FunctionCall(("echo",), run=distance_call("echo")),
-    "02-to-points": FunctionCall(("to_points",), run=call_to_points),
     "02-noise": FunctionCall(("noisy",), run=call_noisy),
+    "02-beam": FunctionCall(("log_likelihood",), run=call_log_likelihood),
     "02-busy-room": FunctionCall(("busy_fit",), run=call_busy_fit),
 }

@@ -2,8 +2,8 @@
 # # Exercise 02 · Sensors, odometry and simulated worlds
 #
 # **You will be able to** compute the range that a lidar beam and an ultrasonic sensor measure,
-# transform the readings of a real device into the world frame, simulate measurement noise and
-# dropouts, and estimate the noise of a sensor from readings that contain outliers.
+# simulate measurement noise and dropouts, evaluate the likelihood of a scan by the beam model, and
+# estimate the noise of a sensor from readings that contain outliers.
 #
 # **60 minutes. Before:** lesson [02 · Sensors, odometry and simulated worlds](../notebooks/02_sensors_and_worlds.ipynb).
 #
@@ -18,6 +18,7 @@
 
 # %%
 import numpy as np
+from scipy.special import ndtr
 
 from classroom.checks import ask, attempt, check
 from slamlab import layers, views
@@ -192,85 +193,7 @@ def _():
 
 
 # %% [markdown]
-# ## 3 · From device readings to the world frame
-#
-# An RPLIDAR reports bearings in **degrees**, measured **clockwise** from its front, and ranges in
-# **millimetres**, where 0 means no return. Its front is along its own x axis. The pose of the
-# sensor in the robot frame is `mount`. The pose of the robot in the world frame is `pose`. Equation
-# (02.5) transforms points from one frame to another.
-
-# %%
-ask(
-    "ex02-mount",
-    "The sensor is at the rear of the robot and faces backwards: `mount` is $(-0.2, 0, \\pi)$. The "
-    "robot is at the origin and faces along +y. The sensor reports a wall at 90° and 1000 mm. "
-    "**Where is this point in the world frame?** (metres)",
-    {
-        "at (1, −0.2)": "this would be right if the device measured bearings counter-clockwise. It "
-        "measures them clockwise from its own front.",
-        "at (−1, 0.2)": "the sensor is behind the centre of the robot, and the robot faces along +y. So the sensor is at y = −0.2.",
-        "at (−1, −0.2)": "the front of the sensor faces backwards. A quarter turn clockwise from there is the robot's left, which is −x here.",
-        "at (−0.2, 1)": "this is the point in the robot frame. The robot itself faces along +y.",
-    },
-    right="at (−1, −0.2)",
-)
-
-# %% [markdown]
-# **Your task.** Return the points in the world frame, in metres: an array $(k, 2)$ with one row for
-# each reading that has a return, in the order of the readings. The check accepts an error of 1 µm.
-# A scan may have any number of readings, also zero, and it may contain no return. Then the result
-# has no rows, and the check also accepts an empty list. Valid ranges are from 1 mm to 40 m. A scan
-# may begin at any angle, and its bearings need not be in ascending order.
-
-
-# %% name="to-points"
-def to_points(degrees, millimetres, mount, pose):
-    """Readings of a device as points in the world frame.
-
-    degrees : (n,) clockwise from the sensor's front;  millimetres : (n,); 0 for no return
-    mount : (3,) the sensor in the robot frame;  pose : (3,) the robot in the world frame
-    returns (k, 2) points in the world frame [m], one for each reading with a return, in their order
-    """
-
-    ### BEGIN SOLUTION
-    def carry(frame, points):
-        c, s = np.cos(frame[2]), np.sin(frame[2])
-        return points @ np.array([[c, s], [-s, c]]) + frame[:2]
-
-    back = millimetres > 0
-    beta, r = -np.radians(degrees[back]), millimetres[back] / 1000
-    in_sensor = np.column_stack([r * np.cos(beta), r * np.sin(beta)])
-    return carry(pose, carry(mount, in_sensor))
-    ### END SOLUTION
-
-
-# %%
-check("02-to-points")
-
-# %% [markdown]
-# In the figure a robot turns on the spot and scans a room five times. Its sensor is more than 30 cm
-# from the centre of the robot. If your function is correct, the walls of all five scans coincide.
-
-
-# %% name="five-scans"
-@attempt
-def _():
-    from slamlab.geometry import compose
-    from slamlab.simulation.worlds import room
-
-    mount, degrees = np.array([0.3, 0.1, 0.5]), np.arange(0.0, 360.0, 2.0)
-    fig, ax = views.axes("Five scans, turned on the spot", size=(8, 5.4))
-    for turn in (0.0, 0.4, 0.8, 1.2, 1.6):
-        pose = np.array([0.5, 0.2, turn])
-        sensor = compose(pose, mount)
-        millimetres = 1000 * room().cast(sensor[:2], sensor[2] - np.radians(degrees))
-        points = to_points(degrees, millimetres.round(), mount, pose)
-        views.draw(ax, layers.Points("scan", points), markersize=5)
-    views.show(fig, alt="Five scans from five headings, transformed by your function.")
-
-
-# %% [markdown]
-# ## 4 · Measurement noise and dropouts
+# ## 3 · Measurement noise and dropouts
 #
 # This task simulates a simple sensor. The standard deviation of its noise is proportional to the
 # range: the noise of a range $r$ is normally distributed, with mean 0 and standard deviation
@@ -325,6 +248,107 @@ def noisy(ranges, error, dropouts, rng):
 
 # %%
 check("02-noise")
+
+# %% [markdown]
+# ## 4 · The likelihood of a scan
+#
+# How well does a scan fit the walls that ray casting expects? The beam model (02.12) answers this
+# question. Each beam has one of four causes, with the probabilities `weights`:
+#
+# - **hit**: the reading of the wall, with the noise of task 3. The density is that of a Gaussian about
+#   the expected range $r^\star$ with σ = `error` · $r^\star$, but *only between 0 and* `range_max`;
+# - **short**: an object in front of the wall. The density decreases as $e^{-\lambda r}$, *only between
+#   0 and* $r^\star$, with λ = `rate` in 1/m;
+# - **no return**: the reading is NaN;
+# - **random**: the density is uniform between 0 and `range_max`.
+#
+# Each of the three densities integrates to one over its interval. Which factor does this need in the
+# first one, if the wall is at `range_max`? And in the second one? (`ndtr(t)` is the distribution
+# function of the standard normal distribution: the integral of its density from −∞ to $t$.)
+
+# %%
+ask(
+    "ex02-float",
+    "A scan has 400 beams without outliers. Each reading errs by two standard deviations, and each "
+    "density is about 0.02 per metre. **Which floating-point number represents the likelihood of "
+    "the scan?**",
+    {
+        "about $10^{-34}$": "that is the likelihood of twenty such beams. The likelihood of 400 beams is far smaller.",
+        "exactly 0, and its logarithm is $-\\infty$": "the smallest positive float is about 5e-324, and $0.02^{400}$ is about 1e-680.",
+        "a small number, known to 16 digits": "a float has 16 digits down to about 2e-308. This number is about 1e-680.",
+    },
+    right="exactly 0, and its logarithm is $-\\infty$",
+)
+
+# %% [markdown]
+# **Your task.** Return the natural logarithm of the likelihood of a scan, whose beams are independent.
+# Its error must be at most $10^{-6}$ of the result. A weight may be 0. Return `-np.inf` if a reading is
+# impossible, such as NaN where the weight of no return is 0. A scan may have thousands of beams, or
+# none, and a reading may be so far from the wall that its density is zero as a float. No reading
+# equals 0, `range_max` or its expected range, and all walls are nearer than `range_max`. `error` is at
+# most 0.5.
+#
+# | law | what must be right | points |
+# | --- | --- | --- |
+# | hit | the density of hits: scans without other causes | 1 |
+# | short | the density of short ranges: scans without other causes | 1 |
+# | mixture | scans with all four causes | 1.5 |
+# | far | long scans, and readings that are dozens of σ from the wall (an error of 30 % is allowed) | 1 |
+# | impossible | impossible readings (only together with other laws) | 0.5 |
+
+
+# %% name="log-likelihood"
+def log_likelihood(ranges, expected, weights, error, rate, range_max):
+    """Logarithm of the likelihood of a scan by the beam model.
+
+    ranges : (n,) measured [m], NaN for no return;  expected : (n,) ranges of the walls [m]
+    weights : (4,) of hit, short, no return, random, which sum to one;  error : σ / expected range [1]
+    rate : λ of short ranges [1/m];  range_max : largest range [m];  returns a number
+    """
+    ### BEGIN SOLUTION
+    lost = np.isnan(ranges)
+    r, wall = ranges[~lost], expected[~lost]
+    sigma = error * wall
+    inside = ndtr((range_max - wall) / sigma) - ndtr(-wall / sigma)
+    with np.errstate(divide="ignore"):
+        hit, short, none, random = np.log(weights)
+    hit = hit - 0.5 * ((r - wall) / sigma) ** 2 - np.log(np.sqrt(2 * np.pi) * sigma * inside)
+    short = short + np.log(rate) - rate * r - np.log(1 - np.exp(-rate * wall))
+    short = np.where(r < wall, short, -np.inf)
+    random = np.full(len(r), random - np.log(range_max))
+    beams = np.logaddexp(np.logaddexp(hit, short), random)
+    return np.sum(beams) + (none * lost.sum() if lost.any() else 0)
+    ### END SOLUTION
+
+
+# %%
+check("02-beam")
+
+# %% [markdown]
+# The figure shows your density of one beam. Move the wall to `range_max`. The integral of the
+# density is the probability of a return, 0.9, wherever the wall is.
+
+
+# %% name="density"
+@attempt
+def _():
+    r = np.linspace(0, 8, 1602)[1:-1]
+
+    def draw(wall, error):
+        weights = np.array([0.6, 0.2, 0.1, 0.1])
+        given = np.array([wall + 1e-6]), weights, error, 0.5, 8.0
+        density = np.exp([log_likelihood(np.array([each]), *given) for each in r])
+        title = f"integral {density.sum() * (r[1] - r[0]):.2f}"
+        fig, _ = views.curves(r, {"density": density}, "range [m]", "density [1/m]", title)
+        return fig
+
+    views.explore(
+        draw,
+        alt="The density of one beam: a peak at the wall, and a decrease in front of it.",
+        wall=(1.0, 7.9, 5.0),
+        error=(0.02, 0.3, 0.05),
+    )
+
 
 # %% [markdown]
 # ## 5 · Noise estimated in a busy room

@@ -43,10 +43,16 @@ ONE_THING_WRONG = {
         "def ray_wall(p, phi, wall):\n    return np.inf",
         {"reached"},
     ),
-    "no point is misplaced of which nobody knows whose it is": (
-        "02-to-points",
-        edited("02-to-points", ("back = millimetres > 0", "back = millimetres > 3000")),
-        {"nothing left out"},
+    "a density that is wrong far from the wall is right near it": (
+        "02-beam",
+        edited(
+            "02-beam",
+            (
+                "np.logaddexp(np.logaddexp(hit, short), random)",
+                "np.log(np.exp(hit) + np.exp(short) + np.exp(random))",
+            ),
+        ),
+        {"far"},
     ),
     "errors that are too large average out": (
         "02-noise",
