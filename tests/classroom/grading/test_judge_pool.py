@@ -111,13 +111,13 @@ def judges_of(grading):
     return [p for p in children(grading.pid) if Path(f"/proc/{p}/cmdline").read_bytes() == called]
 
 
-@pytest.mark.parametrize("sent", ["SIGKILL", "SIGTERM", "SIGINT"])
+@pytest.mark.parametrize("sent", ["SIGKILL", "SIGTERM", "SIGHUP", "SIGINT"])
 def test_no_process_outlives_a_killed_grader(tmp_path, sent):
     class_of(tmp_path / "class", *[notebook(HANGS, exercise="04")] * 3)
     grading, processes = running(tmp_path)
     grading.send_signal(getattr(signal, sent))
     _, output = grading.communicate()
-    assert grading.returncode != 0
+    assert grading.returncode == (-signal.SIGKILL if sent == "SIGKILL" else 130)
     assert b"Traceback" not in output
     until(lambda: all(map(gone, processes)))
 
