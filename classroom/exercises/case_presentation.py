@@ -84,6 +84,11 @@ PRESENTATIONS = {
         returned="it returns xs, Ps and a dict. The dict contains these p and P (here L), in the "
         "order of the ids:"
     ),
+    "06-consistent": CasePresentation(
+        "consistency is called with seen and z without the −1 that pads a scan, and with end = "
+        "None if end is nan. It is given",
+        "it returns nis and nees (known = 0 stands for None):",
+    ),
     "08-associate": CasePresentation(returned="it returns (−1 stands for None)"),
     "08-pillar": CasePresentation(
         "fit_circle is given arc. find_pillar is given the other arrays, with rng = "

@@ -1241,8 +1241,8 @@ carried = np.hypot(*(misled.landmarks() - correct.landmarks()).T)
 # The sections below this one are optional.
 #
 # **Exercise:** [06 · EKF-SLAM: the MAK filter](../exercises/ex06_ekf_slam.ipynb). You write
-# augmentation, update and the whole filter, merge two landmarks that are the same object, and make the
-# filter robust against outliers.
+# augmentation, update and the whole filter, test its consistency by NIS and NEES, and make the filter
+# robust against outliers.
 
 # %% [markdown] slideshow={"slide_type": "notes"} name="note-what-you-can-do-now"
 # *For the lecturer:* Ask which of the three steps has to change if the numbers of the landmarks are not

@@ -2,8 +2,8 @@
 # # Exercise 06 · EKF-SLAM: the MAK filter
 #
 # **You will be able to** write EKF-SLAM yourself: state augmentation, update, and the loop that
-# calls them. You will also merge two landmarks by a constraint, and make the filter robust against
-# outliers.
+# calls them. You will also test whether your filter is consistent, by NIS and NEES, and make it robust
+# against outliers.
 #
 # **60 minutes. Before:** lesson [06 · EKF-SLAM: the MAK filter](../notebooks/06_ekf_slam.ipynb).
 #
@@ -22,6 +22,7 @@
 
 # %%
 import numpy as np
+from scipy.special import gammaincinv
 
 from classroom.checks import ask, attempt, check
 from slamlab import views
@@ -296,57 +297,95 @@ def _():
 # ellipse.
 
 # %% [markdown]
-# ## 4 · Merging two landmarks
+# ## 4 · NIS and NEES of your filter
 #
-# A robot has mapped a corridor from both ends. Later it receives the information that landmarks $i$
-# and $j$ of its map are the same post. There is no new measurement, but there is a new, exact
-# constraint:
-#
-# $$p_i - p_j = 0.$$
-#
-# You can treat the constraint as a measurement: a function $h$ of the state has the measured value
-# 0, without noise. The lesson has no code for this update, but (06.9) applies.
+# Is your filter consistent? Two quantities are tested, each normalised by the covariance that the
+# filter itself reports. The **NIS** of a measurement is $v^{\mathsf T} S^{-1} v$, with the innovation
+# $v$ and its covariance $S$ just before the update. The **NEES** of a pose is $e^{\mathsf T}
+# P_{\mathrm{rr}}^{-1} e$, with its error $e$. In a consistent filter each is $\chi^2$ distributed, with
+# as many degrees of freedom as $v$ or $e$ has numbers, and the sum of independent ones is $\chi^2$
+# distributed with the sum of their degrees of freedom.
 
 # %%
 ask(
-    "ex06-post",
-    "The two estimates of the post were 10 cm apart. No sensor has measured anything at this moment. "
-    "**Does the estimate of the *robot* move?**",
+    "ex06-truth",
+    "A robot has driven through an unknown building, and only its log is there. **What can you test?**",
     {
-        "no: no sensor has measured the robot": "no measurement is needed: the error of the difference of the two estimates is now known.",
-        "yes, by half of the 10 cm": "the correction depends on the covariances of the robot's error with the errors of the two landmarks.",
-        "yes, if its error is correlated with the error of the difference": "the update corrects all estimates whose errors are correlated with the error of the difference.",
+        "the NIS only": "an innovation compares a measurement with a prediction, and the robot has both. The error of a pose compares it with the true pose.",
+        "the NEES only": "the error of the pose is its difference from the true pose, which no sensor of the robot measures.",
+        "both": "the NEES needs the true pose, which is known in a simulation, or from an external measurement.",
+        "neither": "the log contains all measurements, and the filter predicts each of them.",
     },
-    right="yes, if its error is correlated with the error of the difference",
+    right="the NIS only",
 )
 
 # %% [markdown]
-# **Your task.** Return the state and the covariance after the update with this constraint. Remove
-# the two entries of landmark `j`. All other entries keep their order. `i` may be smaller or larger
-# than `j`. $P$ is positive definite. The check compares your `x` and `P` with the least squares
-# estimate in which both landmarks have the same position.
+# An experiment consists of $N$ runs with the same ids in each scan, and other noise. Each run begins
+# with an empty map, with its own estimate `x[r]`, and with `P`. In step `k` of run `r`, the control
+# input is `u[r][k]`, and then `z[r][k][m]` is the measurement of landmark `seen[k][m]`. `end` is the
+# true last pose, which is the same in all runs, or `None` if it is unknown.
+#
+# **Your task.** Run your filter on all runs. Use your functions from tasks 1 and 2, one measurement
+# after the other. Return `nis`: the mean NIS of all measurements of landmarks that were in the map
+# already, and the lower and the upper bound of the interval that contains this mean with a
+# probability of 95 % if the filter is consistent (2.5 % on each side). Return `nees`, the same for
+# the NEES of the last poses of all runs, or `None` if `end` is `None`. `C` and `R` may be wrong, so
+# the means need not be in their intervals. Some landmark is always measured again.
+#
+# | judged | allowed error | points |
+# | --- | --- | --- |
+# | the mean NIS | 0.001 % | 1.5 |
+# | the mean NEES | 0.001 % | 1 |
+# | both intervals | 0.001 % | 1 |
+# | `nees` is `None` if, and only if, the true pose is unknown; another row must be right, too | | 0.5 |
 
 
 # %%
-def merge(x, P, i, j):
-    """Landmarks i and j are the same; returns x (n - 2,), P (n - 2, n - 2), without landmark j.
+def chi2_quantile(p, degrees):
+    """The number below which χ² with these degrees of freedom lies with the probability p."""
+    return 2 * gammaincinv(degrees / 2, p)
 
-    x : (n,) state;  P : (n, n);  i, j : int, from 0, i ≠ j
+
+# %%
+def consistency(x, P, u, seen, z, C, R, end=None):
+    """NIS and NEES of EKF-SLAM on N runs, each as mean, lower and upper bound.
+
+    x : (N, 3);  P : (3, 3);  u : (N, T, 2);  seen : list of T lists of ids
+    z : list of N lists of T arrays (m, 2);  C, R : (2, 2);  end : (3,) true last pose, or None
+    returns nis (3,) and nees (3,), or nis and None
     """
     ### BEGIN SOLUTION
-    D = np.zeros((2, len(x)))
-    D[:, 3 + 2 * i : 5 + 2 * i] = np.eye(2)
-    D[:, 3 + 2 * j : 5 + 2 * j] = -np.eye(2)
-    S = D @ P @ D.T
-    K = P @ D.T @ np.linalg.inv(S)
-    x, P = x - K @ D @ x, P - K @ S @ K.T
-    gone = [3 + 2 * j, 4 + 2 * j]
-    return np.delete(x, gone), np.delete(np.delete(P, gone, axis=0), gone, axis=1)
+    nis, nees = [], []
+    for start, inputs, scans in zip(x, u, z, strict=True):
+        state, cov, ids = start, P, []
+        for one, names, scan in zip(inputs, seen, scans, strict=True):
+            state, cov = predict(state, cov, one, C)
+            for i, measured in zip(names, scan, strict=True):
+                if i not in ids:
+                    state, cov = augment(state, cov, measured, R)
+                    ids = [*ids, i]
+                    continue
+                j = ids.index(i)
+                v = measured - h(state[:3], state[3 + 2 * j : 5 + 2 * j])
+                v[1] = wrap(v[1])
+                H = H_full(state, j)
+                nis.append(v @ np.linalg.solve(H @ cov @ H.T + R, v))
+                state, cov = update(state, cov, measured, j, R)
+        if end is not None:
+            e = state[:3] - end
+            e[2] = wrap(e[2])
+            nees.append(e @ np.linalg.solve(cov[:3, :3], e))
+
+    def test(values, size):
+        n = len(values)
+        return np.array([np.sum(values), *chi2_quantile([0.025, 0.975], size * n)]) / n
+
+    return test(nis, 2), None if end is None else test(nees, 3)
     ### END SOLUTION
 
 
 # %%
-check("06-same")
+check("06-consistent")
 
 # %% [markdown]
 # ## 5 · Make it better: one measurement in ten is an outlier

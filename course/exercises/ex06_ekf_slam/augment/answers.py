@@ -38,15 +38,6 @@ def augment(x, P, z, R):
     new[-2:, -2:] = A @ P[:3, :3] @ A.T + B @ R @ B.T
     return np.append(x, [x[0] + z[0] * c, x[1] + z[0] * s]), new
 
-# %% right: one big Jacobian, G P G' + J R J'
-def augment(x, P, z, R):
-    n = len(x)
-    G = np.vstack([np.eye(n), np.zeros((2, n))])
-    G[n:, :3] = J_xr(x[:3], z)
-    N = np.zeros((n + 2, 2))
-    N[n:] = J_z(x[:3], z)
-    return np.concatenate([x, g(x[:3], z)]), G @ P @ G.T + N @ R @ N.T
-
 # %% right: state [x, z] with block-diagonal covariance, mapped
 def augment(x, P, z, R):
     n = x.shape[0]
@@ -56,14 +47,6 @@ def augment(x, P, z, R):
     T[n:, n:] = J_z(x[:3], z)
     T[n:, 0:3] = J_xr(x[:3], z)
     return np.r_[x, g(x[:3], z)], T @ big @ T.T
-
-# %% right: one Jacobian of the whole new state
-def augment(x, P, z, R):
-    n = len(x)
-    G = np.vstack([np.eye(n), np.hstack([J_xr(x[:3], z), np.zeros((2, n - 3))])])
-    B = np.zeros((n + 2, 2))
-    B[n:] = J_z(x[:3], z)
-    return np.concatenate([x, g(x[:3], z)]), G @ P @ G.T + B @ R @ B.T
 
 # %% right: one big Jacobian of the old state and the sight: F [P 0; 0 R] F'
 def augment(x, P, z, R):

@@ -52,24 +52,6 @@ def update(x, P, z, j, R):
     K = P @ H.T @ np.linalg.pinv(S)
     return x + K @ v, P - K @ H @ P
 
-# %% right: information form
-def update(x, P, z, j, R):
-    H = H_full(x, j)
-    d = z - h(x[:3], x[3 + 2 * j : 5 + 2 * j])
-    d = np.array([d[0], (d[1] + np.pi) % (2 * np.pi) - np.pi])
-    W = np.linalg.inv(R)
-    after = np.linalg.inv(np.linalg.inv(P) + H.T @ W @ H)
-    return x + after @ H.T @ W @ d, after
-
-# %% right: Joseph's form
-def update(x, P, z, j, R):
-    H = H_full(x, j)
-    v = np.array(z, dtype=float) - h(x[:3], x[2 * j + 3: 2 * j + 5])
-    v[1] = wrap(v[1])
-    K = P @ H.T @ np.linalg.inv(H @ P @ H.T + R)
-    I_KH = np.eye(len(x)) - K @ H
-    return x + K @ v, I_KH @ P @ I_KH.T + K @ R @ K.T
-
 # %% right: Cholesky of S, no gain formed, heading left unwrapped
 def update(x, P, z, j, R):
     where = 3 + 2 * j
