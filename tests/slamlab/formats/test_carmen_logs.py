@@ -151,6 +151,22 @@ def test_a_log_is_read_correctly(tmp_path, kind):
     assert source.skipped == 0
 
 
+ENCODINGS = {
+    "UTF-8 with a mark": lambda text: text.encode("utf-8-sig"),
+    "UTF-16 of PowerShell": lambda text: text.replace("\n", "\r\n").encode("utf-16"),
+    "carriage returns alone": lambda text: text.replace("\n", "\r").encode(),
+    "gzip": lambda text: gzip.compress(text.encode()),
+    "no end of the last line": lambda text: text.rstrip("\n").encode(),
+}
+
+
+@pytest.mark.parametrize("encode", ENCODINGS.values(), ids=ENCODINGS)
+def test_a_log_is_read_in_any_encoding(tmp_path, encode):
+    path = tmp_path / "drive.log"
+    path.write_bytes(encode("\n".join(log(flaser)) + "\n"))
+    assert_read_rightly(sources.open(path), DRIVE)
+
+
 def test_true_poses_are_the_lasers_at_the_times_of_its_scans(tmp_path):
     true = [
         words("TRUEPOS", DRIVE.at(t), CENTRE, tail(t), places=6)

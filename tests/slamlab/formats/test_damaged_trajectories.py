@@ -1,6 +1,7 @@
 """Trajectory files with damage: the row alone is lost and reported, or the file is refused."""
 
 import gzip
+import tracemalloc
 import warnings
 
 import numpy as np
@@ -142,3 +143,17 @@ def test_a_mutated_file_raises_nothing_but_a_source_error(tmp_path_factory, cont
     assert len(found.times) == len(found.poses) > 0
     assert np.isfinite(found.times).all() and (np.diff(found.times) > 0).all()
     assert np.isfinite(found.poses).all()
+
+
+def test_memory_is_bounded_by_a_multiple_of_the_file(tmp_path):
+    count = 20_000
+    rows = np.zeros((count, 8))
+    rows[:, 0], rows[:, 7] = np.arange(count), 1
+    path = tmp_path / "long"
+    path.write_text(table(rows.T))
+    tracemalloc.start()
+    try:
+        load_trajectory(path)
+        assert tracemalloc.get_traced_memory()[1] < 12 * path.stat().st_size + 4e6
+    finally:
+        tracemalloc.stop()

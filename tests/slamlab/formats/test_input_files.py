@@ -74,6 +74,13 @@ def test_other_bytes_after_a_gzip_stream_are_reported_as_truncated(tmp_path, jun
     assert read_bytes(written(tmp_path, gzip.compress(b"one\n") + junk)) == (b"one\n", True)
 
 
+def test_a_line_without_an_end_is_refused_with_its_number(tmp_path, monkeypatch):
+    monkeypatch.setattr(files, "MAX_LINE", 1 << 20)
+    path = written(tmp_path, b"first\n" + b"x" * (3 << 20))
+    with pytest.raises(SourceError, match="line 2 is longer than 1 MB"):
+        list(InputFile(path).lines())
+
+
 @pytest.mark.parametrize("compress", [gzip.compress, bz2.compress, lzma.compress])
 def test_zeros_by_the_gigabyte_are_refused_in_bounded_memory(tmp_path, monkeypatch, compress):
     monkeypatch.setattr(files, "MAX_LINE", 1 << 20)
