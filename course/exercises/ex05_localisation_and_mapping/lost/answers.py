@@ -142,7 +142,8 @@ def find_yourself(x, P, drives, ids, zs, landmarks, C, R):
             if i >= 0:
                 v = z - h(y, landmarks[i])
                 v[1] = wrap(v[1])
-                if abs(v[0]) < 1.0 and abs(v[1]) < 0.5:
+                H = H_robot(y, landmarks[i])
+                if np.all(v**2 < 9 * np.diag(H @ Q @ H.T + R)):
                     hits += 1
                     y, Q = locate(y, Q, z, landmarks[i], R)
             xs.append(y)
@@ -179,11 +180,11 @@ def find_yourself(x, P, drives, ids, zs, landmarks, C, R):
     best = max(runs, key=lambda r: r[0])
     return best[1], best[2]
 
-# %% right: eight headings only, each its filter with a gate; the one that most sights agree with
+# %% right: 24 headings, each its filter with a gate; the one that most sights agree with
 def find_yourself(x, P, drives, ids, zs, landmarks, C, R):
     best, most = None, -1
-    for heading in np.arange(8) * np.pi / 4:
-        y, Q = np.array([x[0], x[1], heading]), np.diag([P[0, 0], P[1, 1], 0.05 ** 2])
+    for heading in np.arange(24) * np.pi / 12:
+        y, Q = np.array([x[0], x[1], heading]), np.diag([P[0, 0], P[1, 1], 0.15 ** 2])
         xs, Ps, agreed = [], [], 0
         for u, i, z in zip(drives, ids, zs):
             y, Q = predict(y, Q, u, C)
@@ -308,7 +309,7 @@ def find_yourself(x, P, drives, ids, zs, landmarks, C, R):
             best, most = (xs, Ps), agreed
     return best
 
-# %% passes: median of nine, wide start, wide gate (on few other draws)
+# %% wrong: median of nine, wide start, wide gate
 def run(x, P, drives, ids, zs, landmarks, C, R, gate):
     xs, Ps = [], []
     for u, id, z in zip(drives, ids, zs):
