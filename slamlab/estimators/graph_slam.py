@@ -44,11 +44,7 @@ class GraphSlam(Estimator):
 
     ``graph`` and ``keyframes`` form the map; ``anchors`` are the keyframes of the readings (−1
     before the first); ``calibration`` corrects odometry. Laser odometry replaces missing odometry.
-
-    Parameters
-    ----------
-    robot : RobotModel
-    loops : bool, whether to close loops and relocalise the robot
+    ``robot`` is a RobotModel; without ``loops`` no loop is closed and no robot is relocalised.
     """
 
     def __init__(self, robot, loops=True):

@@ -96,25 +96,29 @@ def _searches(problem, poses, fixed, trusted, phi):
 
 
 def _pruned(problem, found, fixed, trusted, phi):
-    """Reject edges that fit but bend the others, the costliest first, while this clearly decreases
-    the cost."""
+    """Reject loops that no other one supports, then loops that bend the others, while this pays."""
+    found, _ = _without(problem, found, outlier_search.lone_loops, fixed, trusted, phi)
     for _ in range(PRUNINGS):
-        numbers, some = np.flatnonzero(found.accepted), problem.select(found.accepted)
-        limit = outlier_search.acceptable_chi2(phi, found.scale)
-        costliest = outlier_search.costliest_edges(
-            some, found.poses, numbers, trusted, found.chi2, limit
+        found, better = _without(
+            problem, found, outlier_search.costliest_loops, fixed, trusted, phi
         )
-        if not len(costliest):
+        if not better:
             break
-        chosen = found.accepted & ~trusted
-        chosen[costliest] = False
-        fewer = outlier_search.search(problem, found.poses, trusted, chosen, 1.0, phi)
-        fewer = outlier_search.with_readmitted(problem, fewer, fixed, trusted, phi)
-        (best, _), costs = _ranked([found, fewer], phi)
-        if best is found or costs[1] - costs[0] < phi:  # one true edge in a hundred costs more
-            break
-        found = fewer
     return found
+
+
+def _without(problem, found, suspected, fixed, trusted, phi):
+    """Reject the loops that a function suspects, and readmit what then fits; return the more likely
+    result and whether it is new."""
+    suspects, chosen = suspected(problem, found, trusted, phi), found.accepted & ~trusted
+    if not len(suspects):
+        return found, False
+    chosen[suspects] = False
+    fewer = outlier_search.search(problem, found.poses, trusted, chosen, 1.0, phi)
+    fewer = outlier_search.with_readmitted(problem, fewer, fixed, trusted, phi)
+    (best, _), costs = _ranked([found, fewer], phi)
+    better = best is fewer and costs[1] - costs[0] > phi  # one true edge in 100 costs more than Φ
+    return (fewer if better else found), better
 
 
 def _opposite(problem, best, fixed, trusted, phi):

@@ -3,6 +3,7 @@
 from typing import NamedTuple
 
 import numpy as np
+from scipy.spatial import KDTree
 
 from slamlab.posegraph.edge_error import squared_distances
 from slamlab.posegraph.marginal_covariances import leave_one_out
@@ -13,6 +14,7 @@ FACTOR = 0.25  # by which the multiple of Φ that a search allows changes in eac
 STAGES, STEPS, MORE_STEPS = 25, 2, 10  # of a search, and iterations of the optimiser in each
 READMISSIONS = 8  # at most, of each search
 SAME_MAP, SAME_FIT = 0.1, 100.0  # limits below which two results agree [m, rms], [1]
+NEAR = 5  # numbers of poses between two loops that support each other
 TESTED = 30  # accepted edges, of the largest χ², without which the cost is computed
 PRIOR_FREEDOM = 30.0  # degrees of freedom with which a scale of 1 enters its estimate [1]
 SAFETY = 3.0  # of the estimated scale, since noise is seldom Gaussian [1]
@@ -60,24 +62,33 @@ def search(problem, poses, trusted, chosen, factor, phi):
             chosen = (chi2 <= phi * scale * factor) & ~trusted
             settled = factor == 1 and optimum.converged and (chosen == before).all()
         if settled:
-            limit = acceptable_chi2(phi, new)
-            chosen = before | ((chi2 <= limit) & ~trusted)
+            chosen = before | ((chi2 <= acceptable_chi2(phi, new)) & ~trusted)
             if optimum.converged and (chosen == before).all():
-                numbers, most = np.flatnonzero(accepted), VIOLATED * limit
-                costly = costliest_edges(some, poses, numbers, trusted, chi2, most)
+                found = Search(poses, accepted, chi2, new, _freedom(problem, accepted))
+                costly = costliest_loops(problem, found, trusted, phi, VIOLATED)
                 if not len(costly):
                     break
                 chosen[costly] = False
     return Search(poses, accepted, chi2, new, _freedom(problem, accepted))
 
 
-def costliest_edges(some, poses, numbers, trusted, chi2, limit):
-    """Return the accepted edges without which χ² decreases by more than ``limit``. Return only
-    the costliest of them, because these edges also increase the χ² of the others."""
+def costliest_loops(problem, found, trusted, phi, factor=1.0):
+    """Return the accepted edges without which χ² decreases by more than ``factor`` times what an
+    edge may cost. Return only the costliest of them, because these also burden the others."""
+    numbers = np.flatnonzero(found.accepted)
     tested = np.flatnonzero(~trusted[numbers])
-    tested = tested[np.argsort(-chi2[numbers[tested]])[:TESTED]]
-    saved = leave_one_out(some, poses, tested)
+    tested = tested[np.argsort(-found.chi2[numbers[tested]])[:TESTED]]
+    saved = leave_one_out(problem.select(found.accepted), found.poses, tested)
+    limit = factor * acceptable_chi2(phi, found.scale)
     return numbers[tested[saved > max(limit, saved.max(initial=0) / 2)]]
+
+
+def lone_loops(problem, found, trusted, phi):
+    """Return the accepted loops that have no other accepted loop between nearly the same poses."""
+    loops = np.flatnonzero(found.accepted & ~trusted)
+    pairs = np.sort(problem.pairs[loops], axis=1)
+    distances, _ = KDTree(pairs).query(pairs, k=2, p=np.inf)
+    return loops[distances[:, 1] > NEAR]
 
 
 def acceptable_chi2(phi, scale):

@@ -22,13 +22,8 @@ CORNERS = [
 
 
 def legend(ax, **style):
-    """Add a legend with enlarged markers; when shown, it moves off the data. Returns a Legend.
-
-    Parameters
-    ----------
-    ax : Axes
-    style : as matplotlib's legend takes it
-    """
+    """Add a legend with enlarged markers to Axes; when shown, it moves off the data. ``style`` is
+    as matplotlib's legend takes it. Returns a Legend."""
     made = ax.legend(**{"fontsize": MIN_FONT_SIZE} | style)
     # the layout makes room only for a legend beside the axes
     made.set_in_layout("bbox_to_anchor" in style)
@@ -37,14 +32,8 @@ def legend(ax, **style):
 
 
 def legend_below(fig, title=None):
-    """Add one legend below the panels for all of them; it replaces earlier legends there. Returns a
-    Legend.
-
-    Parameters
-    ----------
-    fig : Figure with constrained layout
-    title : str or None
-    """
+    """Add one legend below all panels of a Figure with constrained layout; it replaces earlier
+    legends there. Returns a Legend."""
     for old in list(fig.legends):
         old.remove()
     entries = {}
