@@ -10,6 +10,7 @@ from slamlab.readings import Scan
 # largest plausible increment: constant, and per time
 JUMP, MAX_SPEED = 0.5, 15.0  # of any robot [m, m/s]
 SUDDEN_JUMP, SUDDEN_SPEED, SPEED_FACTOR = 0.2, 1.5, 2.0  # after slower motion [m, m/s, 1]
+ACCELERATION = 1.0  # that adds to a sudden speed [m/s²]
 MAX_TURN, MAX_TURN_RATE = 0.5, 8.0  # [rad, rad/s]
 WINDOW = 20  # readings that determine the usual period and speed
 GAP_FACTOR = 5.0  # a gap is longer than so many median periods [1]
@@ -70,7 +71,7 @@ class PlausibilityCheck:
         distance, period = float(np.hypot(odometry[0], odometry[1])), self.period
         bound = JUMP + MAX_SPEED * period
         if len(self._speeds) == WINDOW:
-            sudden = SPEED_FACTOR * max(self._speeds) + SUDDEN_SPEED
+            sudden = SPEED_FACTOR * max(self._speeds) + SUDDEN_SPEED + ACCELERATION * period
             bound = min(bound, SUDDEN_JUMP + sudden * period)
         # some logs have increments of half a second with timestamps milliseconds apart
         max_turn = MAX_TURN + MAX_TURN_RATE * max(period, MIN_PERIOD)
