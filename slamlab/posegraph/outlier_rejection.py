@@ -43,7 +43,7 @@ def reject_outliers(problem, poses, fixed, dropped, phi, settings):
     results[0] = _pruned(problem, results[0], fixed, trusted, phi)
     results += [_opposite(problem, results[0], fixed, trusted, phi)]
     (best, *others), costs = _ranked(results, phi)
-    found, optimum = optimise(problem.select(best.accepted), best.poses, *settings)
+    found, optimum = optimise(best.problem, best.poses, *settings)
     for other, cost in zip(others, costs[1:], strict=True):
         if not best.agrees(other):
             runner_up = cost - costs[0], best.distance(other)
@@ -65,12 +65,13 @@ def _unchanged(problem, poses, accepted, trusted, phi, settings):
     """Optimise with the edges accepted before; return an Optimum of None if this does not converge,
     or if any edge's χ² calls for the opposite decision."""
     few = min(settings[0], outlier_search.MORE_STEPS), settings[1]
-    found, optimum = optimise(problem.select(accepted), poses, *few)
-    scale = 1.0 if accepted.all() else outlier_search.estimated_scale(problem, found, accepted)
+    some = problem.select(accepted)
+    found, optimum = optimise(some, poses, *few)
+    chi2 = problem.errors(found)[1]
+    scale = 1.0 if accepted.all() else outlier_search.estimated_scale(some, chi2[accepted])
+    acceptable = outlier_search.acceptable_chi2(phi, scale)
     # false loops that bend odometry fit, but odometry does not
-    fits = problem.errors(found)[1] <= np.where(
-        trusted, outlier_search.VIOLATED * phi, outlier_search.acceptable_chi2(phi, scale)
-    )
+    fits = chi2 <= np.where(trusted, outlier_search.VIOLATED * phi, acceptable)
     if not optimum.converged or (fits != accepted).any():
         return poses, None
     return found, _completed(problem, found, optimum, accepted, phi)
@@ -97,22 +98,22 @@ def _searches(problem, poses, fixed, trusted, phi):
 
 def _pruned(problem, found, fixed, trusted, phi):
     """Reject loops that no other one supports, then loops that bend the others, while this pays."""
-    found, _ = _without(problem, found, outlier_search.lone_loops, fixed, trusted, phi)
+    lone = outlier_search.lone_loops(problem, found, trusted)
+    found, _ = _without(lone, problem, found, fixed, trusted, phi)
     for _ in range(PRUNINGS):
-        found, better = _without(
-            problem, found, outlier_search.costliest_loops, fixed, trusted, phi
-        )
+        costliest = outlier_search.costliest_loops(found, trusted, phi)
+        found, better = _without(costliest, problem, found, fixed, trusted, phi)
         if not better:
             break
     return found
 
 
-def _without(problem, found, suspected, fixed, trusted, phi):
-    """Reject the loops that a function suspects, and readmit what then fits; return the more likely
-    result and whether it is new."""
-    suspects, chosen = suspected(problem, found, trusted, phi), found.accepted & ~trusted
+def _without(suspects, problem, found, fixed, trusted, phi):
+    """Reject loops, given their numbers, and readmit what then fits; return the more likely result
+    and whether it is new."""
     if not len(suspects):
         return found, False
+    chosen = found.accepted & ~trusted
     chosen[suspects] = False
     fewer = outlier_search.search(problem, found.poses, trusted, chosen, 1.0, phi)
     fewer = outlier_search.with_readmitted(problem, fewer, fixed, trusted, phi)

@@ -7,7 +7,7 @@ from scipy.spatial import KDTree
 
 from slamlab.posegraph.edge_error import squared_distances
 from slamlab.posegraph.marginal_covariances import leave_one_out
-from slamlab.posegraph.optimisation import optimise
+from slamlab.posegraph.optimisation import LeastSquaresProblem, optimise
 from slamlab.posegraph.spanning_tree import SpanningTree, covariances
 
 FACTOR = 0.25  # by which the multiple of Φ that a search allows changes in each stage [1]
@@ -22,18 +22,18 @@ VIOLATED = 3.0  # a trusted edge above so many Φ starts a search, an edge that 
 
 
 class Search(NamedTuple):
-    """Result of one search: poses (n, 3), the mask (m,) of the accepted edges, χ² (m,) of all
-    edges, the scale of χ², and the degrees of freedom of the accepted edges."""
+    """Result of one search: the problem of the accepted edges, mask (m,), poses (n, 3), χ² (m,) of
+    all edges, and the scale of χ²."""
 
-    poses: np.ndarray
+    problem: LeastSquaresProblem
     accepted: np.ndarray
+    poses: np.ndarray
     chi2: np.ndarray
     scale: float
-    freedom: int
 
     def cost(self, phi, scale):
         """Compute −2 log likelihood up to a constant, given the scale of χ²."""
-        chi2 = self.chi2[self.accepted].sum() / scale + self.freedom * np.log(scale)
+        chi2 = self.chi2[self.accepted].sum() / scale + _freedom(self.problem) * np.log(scale)
         return float(chi2 + phi * np.count_nonzero(~self.accepted))
 
     def distance(self, other):
@@ -55,35 +55,38 @@ def search(problem, poses, trusted, chosen, factor, phi):
         poses, optimum = optimise(some, poses, STEPS, tolerance=1.0)
         if not optimum.converged and (chosen == before).all():  # bent by edges rejected since
             poses, optimum = optimise(some, start, MORE_STEPS, tolerance=1.0)
-        chi2, new = problem.errors(poses)[1], estimated_scale(problem, poses, accepted)
+        chi2 = problem.errors(poses)[1]
+        found = Search(some, accepted, poses, chi2, estimated_scale(some, chi2[accepted]))
         factor = max(1.0, FACTOR * factor)
-        before, scale = chosen, min(scale, new)  # a false loop does not make room for others
+        before, scale = (
+            chosen,
+            min(scale, found.scale),
+        )  # a false loop does not make room for others
         if not settled:
             chosen = (chi2 <= phi * scale * factor) & ~trusted
             settled = factor == 1 and optimum.converged and (chosen == before).all()
         if settled:
-            chosen = before | ((chi2 <= acceptable_chi2(phi, new)) & ~trusted)
+            chosen = before | ((chi2 <= acceptable_chi2(phi, found.scale)) & ~trusted)
             if optimum.converged and (chosen == before).all():
-                found = Search(poses, accepted, chi2, new, _freedom(problem, accepted))
-                costly = costliest_loops(problem, found, trusted, phi, VIOLATED)
+                costly = costliest_loops(found, trusted, phi, VIOLATED)
                 if not len(costly):
                     break
                 chosen[costly] = False
-    return Search(poses, accepted, chi2, new, _freedom(problem, accepted))
+    return found
 
 
-def costliest_loops(problem, found, trusted, phi, factor=1.0):
+def costliest_loops(found, trusted, phi, factor=1.0):
     """Return the accepted edges without which χ² decreases by more than ``factor`` times what an
     edge may cost. Return only the costliest of them, because these also burden the others."""
     numbers = np.flatnonzero(found.accepted)
     tested = np.flatnonzero(~trusted[numbers])
     tested = tested[np.argsort(-found.chi2[numbers[tested]])[:TESTED]]
-    saved = leave_one_out(problem.select(found.accepted), found.poses, tested)
+    saved = leave_one_out(found.problem, found.poses, tested)
     limit = factor * acceptable_chi2(phi, found.scale)
     return numbers[tested[saved > max(limit, saved.max(initial=0) / 2)]]
 
 
-def lone_loops(problem, found, trusted, phi):
+def lone_loops(problem, found, trusted):
     """Return the accepted loops that have no other accepted loop between nearly the same poses."""
     loops = np.flatnonzero(found.accepted & ~trusted)
     pairs = np.sort(problem.pairs[loops], axis=1)
@@ -96,14 +99,13 @@ def acceptable_chi2(phi, scale):
     return scale * (phi - 3 * np.log(scale))
 
 
-def _freedom(problem, accepted):
-    return 3 * np.count_nonzero(accepted) - np.count_nonzero(problem.free)
+def _freedom(problem):
+    return 3 * len(problem.pairs) - np.count_nonzero(problem.free)
 
 
-def estimated_scale(problem, poses, accepted):
-    """Estimate the scale of χ² from accepted edges, at most 1 (reduced χ²)."""
-    chi2 = problem.errors(poses)[1][accepted].sum()
-    reduced = (chi2 + PRIOR_FREEDOM) / (_freedom(problem, accepted) + PRIOR_FREEDOM)
+def estimated_scale(problem, chi2):
+    """Estimate the scale of χ² from that of the accepted edges, at most 1 (reduced χ²)."""
+    reduced = (chi2.sum() + PRIOR_FREEDOM) / (_freedom(problem) + PRIOR_FREEDOM)
     return min(1.0, SAFETY * reduced)
 
 
