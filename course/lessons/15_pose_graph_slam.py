@@ -868,10 +868,10 @@ systems = {"gate at 60": twins.with_gate, "no gate": twins.without}
 for name, slam in systems.items():
     rejected, bad = slam.counts["loops outside the gate"], twins.count_false(slam)
     error = twins.largest_error(slam.graph.poses, slam)
-    print(f"{name}: {rejected} rejected, {bad} false accepted, largest error {error:.2f} m")
+    print(f"{name}: {rejected} rejected, {bad} false edges, largest error {error:.2f} m")
 trusted = false_loops.trust_all(twins.without.graph)
 distortion = twins.largest_error(trusted.poses, twins.without)
-print(f"no gate, every loop trusted: largest error {distortion:.2f} m")
+print(f"no gate, every loop trusted: largest error {distortion:.1f} m")
 
 # %% slideshow={"slide_type": "subslide"} tags=["folded"]
 of_trusted = [edge for edge in trusted.edges if abs(edge.i - edge.j) > 1]
@@ -927,11 +927,15 @@ ask(
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output", "nearly"] answers="15-width"
 # d² of all loops, for three standard deviations of odometry
+def two_digits(d2):
+    return views.grouped(int(float(f"{d2:.2g}")))  # further digits depend on the processor
+
+
 by_scale = {scale: twins.squared_mahalanobis(scale) for scale in (0.2, 1, 3)}
 print("σ of odometry ×   right ones up to   false ones from")
 for scale, d2 in by_scale.items():
-    false_from = views.grouped(round(d2[twins.false].min()))
-    print(f"{scale:15g} {d2[~twins.false].max():18.0f} {false_from:>17}")
+    most, least = d2[~twins.false].max(), d2[twins.false].min()
+    print(f"{scale:15g} {two_digits(most):>18} {two_digits(least):>17}")
 rejected = np.mean(by_scale[1][~twins.false] > 11.3)
 print(f"rejected at 11.3: {100 * rejected:.1f} %")
 
@@ -969,12 +973,12 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="15-width"
-# The share of right loops with a $d^2$ above 11.3 is {= 100 * rejected:.0f =} %. With errors drawn from
-# $Q$ the share would be about 1 % on average, so the systematic error is the likely cause. (The loops
-# of one run depend on the same odometry errors, so they are not independent.) The largest $d^2$ of a
-# right loop is {= by_scale[1][~twins.false].max():.0f =}, and the smallest $d^2$ of a false loop is
-# {= by_scale[1][twins.false].min():.0f =}. The threshold of the library's gate is 60, between these
-# values.
+# The share of right loops with a $d^2$ above 11.3 is {= 100 * rejected:.0f =} %. In 40 simulations with
+# odometry errors drawn from $Q$ the share is {= 100 * twins.share_rejected_by_model(11.3):.0f =} % on average,
+# so the systematic error is the likely cause. (The loops of one run depend on the same odometry errors, so
+# they are not independent.) The largest $d^2$ of a right loop is {= two_digits(by_scale[1][~twins.false].max()) =},
+# and the smallest $d^2$ of a false loop is {= two_digits(by_scale[1][twins.false].min()) =}. The threshold of the
+# library's gate is 60, between these values.
 #
 # Now move the other slider: the $d^2$ of both groups change. **With an overconfident odometry model the
 # gate rejects right loops**, and with a model that is too conservative it accepts false loops. A gate
@@ -985,9 +989,9 @@ views.explore(
 #
 # With a squared cost the gradient of an edge grows in proportion to its residual. So we give an edge
 # that *may* be false a smaller cost: a **robust kernel** $\rho(\chi^2)$ of its
-# $\chi^2 = e^{\mathsf T} \Lambda\, e$. (The minimiser is called an *M-estimator*.) Up to a limit
-# $\Phi$, the cost of *dynamic covariance scaling* (DCS) is that of least squares; beyond it, the cost
-# levels off:
+# $\chi^2 = e^{\mathsf T} \Lambda\, e$. (The minimiser is an **M-estimator**. It is the maximum likelihood
+# estimate if $\rho$ is $-2 \log$ of the likelihood, up to a constant.) Up to a limit $\Phi$, the cost of *dynamic
+# covariance scaling* (DCS) is that of least squares; beyond it, the cost levels off:
 #
 # $$\rho(\chi^2) = 3\Phi - \frac{4\Phi^2}{\Phi + \chi^2} \qquad (\chi^2 > \Phi). \tag{15.9}$$
 #
@@ -1064,10 +1068,13 @@ views.explore(
 # Huber's cost is convex in $e$, but the size of its gradient stays constant for large residuals, so a
 # distant outlier still affects the estimate. The others are *redescending*: far beyond $\Phi$ the
 # gradient approaches zero. At $\chi^2 = 40\,000$ the weight of a false loop is
-# {= 1e7 * DCS().weight(40000):.1f =} $\cdot\, 10^{-7}$ with DCS, and 0 with truncated least squares. The
-# disadvantage of a bounded cost is that nearly every choice of accepted loops is a local minimum. We
-# use $\Phi = 11.3$: at the true poses 99 % of right edges have a $\chi^2$ below $\Phi$, if their
-# $\Lambda$ is correct.
+# {= 1e7 * DCS().weight(40000):.1f =} $\cdot\, 10^{-7}$ with DCS, and 0 with truncated least squares. We use
+# $\Phi = 11.3$: at the true poses 99 % of right edges have a $\chi^2$ below $\Phi$, if their $\Lambda$
+# is correct.
+#
+# **A bounded cost has many local minima.** Choose some loops, and compute the poses that fit them. If all
+# other loops are far beyond $\Phi$ there, their gradients are nearly zero. So no small change of the poses
+# reduces the cost: these poses are a local minimum, whether or not the chosen loops are right.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=10
 # ## Many false loops
@@ -1075,9 +1082,9 @@ views.explore(
 # Now we test the kernel on the odometry graph of the twin rooms, with all right loops and some false
 # loops, without a gate. At the poses of odometry, which have errors of metres, right loops also have
 # large residuals, like outliers. So $\Phi$ must not begin at 11.3. It begins at a larger value, at which
-# the cost is nearly convex, and is divided by 4 in each iteration, down to 11.3. Such annealing is
-# called **graduated non-convexity** (GNC). A natural first value is the largest $\chi^2$ of any loop:
-# then every loop has full weight at first.
+# the cost is nearly convex, and is divided by 4 in each iteration, down to 11.3 (the last step iterates until
+# it converges). Such annealing is called **graduated non-convexity** (GNC). A natural first value is the
+# largest $\chi^2$ of any loop: then every loop has full weight at first.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Reduce the first $\Phi$ step by step, and let the class predict the map each
@@ -1101,39 +1108,41 @@ ask(
 
 
 # %% slideshow={"slide_type": "subslide"} answers="15-liars" tags=["folded"]
-def annealed(first_phi):
-    loops = twins.select_loops()
-    graph = twins.graph(loops)
-    steps = [(phi, w[-len(loops) :]) for phi, w in false_loops.anneal(graph, 11.3, first_phi)]
-    titles = "weights of the loops", f"largest error {twins.largest_error(graph.poses):.2f} m"
+def annealed(iteration, first_phi):
+    phi, weights, poses = (each[: iteration + 1] for each in twins.schedule(first_phi))
+    words = f"largest error {twins.largest_error(poses[-1]):.1f} m"
+    titles = f"iteration {len(phi) - 1}: Φ = {views.grouped(round(phi[-1]))}", words
     fig, (left, right_ax) = views.panels(titles, (9.5, 4.2), shared=False)
-    weights = np.array([w for _, w in steps])
     for bad, name in ((False, "corrected"), (True, "naive")):
-        chosen = weights[:, twins.false[loops] == bad]
-        label = "false loops" if bad else "right loops"
+        chosen, label = weights[:, twins.false == bad], f"{'false' if bad else 'right'} loops, mean"
         left.plot(chosen, color=views.COLOURS[name], alpha=0.3)
-        left.plot(chosen.mean(axis=1), color=views.COLOURS[name], linewidth=3, label=label)
-    marks = range(0, len(steps), 3)
-    left.set_xticks(marks, [views.grouped(round(steps[k][0])) for k in marks], rotation=30)
-    left.set(xlabel="Φ [1]", ylabel="weight w [1]", aspect="auto")
-    for points in scan_layers(graph.poses, false_loops.keyframe_points(twins.with_gate)).values():
-        views.draw(right_ax, points)
+        look = {"color": views.COLOURS[name], "linewidth": 3, "marker": "o", "label": label}
+        left.plot(chosen.mean(axis=1), **look)
+    left.set(xlim=(-0.5, 15.5), ylim=(-0.05, 1.05), aspect="auto")
+    left.set(xlabel="iteration", ylabel="weight w [1]", xticks=range(0, 16, 3))
+    scans = false_loops.keyframe_points(twins.with_gate)
+    for label, layer in scan_layers(poses[-1], scans).items():
+        views.draw(right_ax, layer, label=label)
+    right_ax.set(xlim=(-4, 17), ylim=(-11, 9))
     views.legend_below(fig)
     return fig
 
 
 views.explore(
     annealed,
-    lambda first_phi: (
-        f"Left: the weights of right and false loops while Φ decreases from {views.grouped(first_phi)}; right: the map. "
-        "From the largest Φ most loops of both kinds lose their weight; from a smaller one only the false loops do."
+    lambda iteration, first_phi: (
+        f"Left: the weights of the loops while Φ decreases from {views.grouped(first_phi)}, iteration {iteration}; right: "
+        "the map. From the largest Φ most right loops lose their weight; from a smaller one only the false loops do."
     ),
+    play="iteration",
+    iteration=(0, 15, 15),
     first_phi=slider("first Φ", [11.3, 100, 1000, *(10**k for k in (4, 5, 6, 7, 9))], 10**9),
 )
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="15-liars"
-# The map is distorted. Now reduce the first $\Phi$: from which value on is the map right, and at which
-# small value is it wrong again? The largest $\chi^2$ is that of the worst outlier, so an outlier
+# Set the iteration to 0 and press ▶. While all loops have full weight, the map fits the false loops as well;
+# then most right loops lose their weight. Now reduce the first $\Phi$: from which value on is the map right,
+# and at which small value is it wrong again? The largest $\chi^2$ is that of the worst outlier, so an outlier
 # determines in how many iterations all loops have full weight.
 
 
@@ -1149,30 +1158,31 @@ def errors_with(loops):
 
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output", "nearly"] answers="15-liars"
-# none to all of the false loops, and every fourth of them alone
-right, single = twins.select_loops(0), np.flatnonzero(twins.false)[::4]
+# none to all of the false loops, and each of them alone
+right, single = twins.select_loops(0), np.flatnonzero(twins.false)
 print("false loops   trusted   Huber   DCS from 10⁹   DCS from 10⁴   library")
-every = int(np.sum(twins.false))
+every = len(single)
 by_count = {count: errors_with(twins.select_loops(count)) for count in (0, 1, 3, 10, every)}
 for count, errors in by_count.items():
-    print("{:11d} {:7.2f} m {:5.2f} m {:12.2f} m {:12.2f} m {:7.2f} m".format(count, *errors))
+    print("{:11d} {:7.1f} m {:5.1f} m {:12.1f} m {:12.1f} m {:7.1f} m".format(count, *errors))
 alone = np.array([errors_with([*right, one]) for one in single])
-ruined = (alone > 1).sum(axis=0)
-print(f"maps that one of {len(single)} false loops, alone, ruins:", *ruined.tolist())
+ruined = (alone > 1).sum(axis=0)  # errors of more than 1 m
+row = "each alone {:7d} {:8d} {:13d} {:14d} {:10d}".format(*ruined)
+print(f"{row}    of {every} maps ruined")
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="15-liars"
-# Without a kernel, a single false loop causes an error of {= by_count[1][0]:.1f =} m. With Huber's kernel,
-# {= ruined[1] =} of {= len(single) =} false loops cause an error of more than 1 m, each of them alone. With
-# DCS the result depends on the first $\Phi$: from 10⁹, three false loops ruin the map
-# ({= by_count[3][2]:.1f =} m); **from 10⁴ the error is {= by_count[every][3]:.2f =} m with all
-# {= every =} false loops**. Another graph may need another value, and nobody knows it in advance.
+# The last row adds each of the {= every =} false loops alone to all right loops. We call a map with an error
+# above 1 m *ruined*. Without a kernel {= ruined[0] =} false loops ruin the map, with Huber's kernel
+# {= ruined[1] =}, and with DCS from 10⁹ {= ruined[2] =}. With DCS the result depends on the first $\Phi$: from 10⁹,
+# three false loops together ruin this map; **from 10⁴ the error is {= by_count[every][3]:.1f =} m with all
+# {= every =} false loops**. Another graph may need another value, which is not known in advance.
 #
-# So the library (`PoseGraph.optimise`) searches from several starts: each begins with other loops, and
-# graduates what it allows. Its kernel is truncated least squares, whose cost is a (logarithmic)
-# likelihood: a loop is either right and has Gaussian noise, or is false, which costs $\Phi$. So the costs
-# of two results can be compared, and the library takes the most likely one, here with
-# {= by_count[every][4]:.2f =} m. The result contains the rejected loops and the **runner-up**: how much less
-# likely the next solution is, and how far away.
+# So the library (`PoseGraph.optimise`) runs several searches. Each begins with another set of loops, and
+# gradually lowers the $\chi^2$ that it accepts. The kernel is truncated least squares, whose cost is
+# $-2 \log$ of a likelihood: a loop is either right, with Gaussian noise, or false, which costs $\Phi$. So the
+# results can be compared, and the library takes that of **maximum likelihood**, here with
+# {= by_count[every][4]:.1f =} m. It also returns the **runner-up**: by how much the next solution costs more, and
+# how far away its poses are.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output", "nearly"] answers="15-liars"
 for some_right in (84, 8, 3, 1):
@@ -1180,21 +1190,22 @@ for some_right in (84, 8, 3, 1):
         [right[:: len(right) // some_right][:some_right], np.flatnonzero(twins.false)[:3]]
     )
     graph, optimum = twins.close_loops(loops)
-    rejected = np.flatnonzero(optimum.weights[-len(loops) :] == 0)
+    bad = np.flatnonzero(optimum.weights[-len(loops) :] == 0) >= some_right
     print(
-        f"{some_right} right, 3 false: {len(rejected)} rejected, error "
-        f"{twins.largest_error(graph.poses):.2f} m, ambiguous: {optimum.ambiguous}"
+        f"{some_right:2} right, 3 false: {np.sum(~bad)} and {np.sum(bad)} of them rejected, error "
+        f"{twins.largest_error(graph.poses):.1f} m, ambiguous: {optimum.ambiguous}"
     )
+print("the runner-up of the last: cost + {:.1f}, {:.1f} m away (rms)".format(*optimum.runner_up))
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="15-liars"
 # If few right loops remain, the false loops may agree with each other at least as well: *perceptual
-# aliasing*. If two different maps are nearly equally likely, the result is **ambiguous**, and no optimiser
-# can decide: only further measurements can. (If more false loops than right loops agree, even the most
-# likely map is wrong.)
+# aliasing*. If the costs of two different maps differ by less than $3\Phi$, the result is **ambiguous**: the
+# measurements hardly favour one of them, and only further measurements can decide. (If more false loops
+# than right loops agree, even the most likely map is wrong.)
 #
 # A complete system uses both a gate and a kernel. Further methods are *switchable constraints* (DCS is
-# their closed form), and *pairwise consistency maximisation*, which accepts the largest set of loops that
-# agree with each other.
+# their closed form), and *pairwise consistency maximisation*, which accepts the largest set of loops of
+# which every two agree.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## Occupancy grids

@@ -180,6 +180,14 @@ class TwinRooms:
             pass
         return graph
 
+    def schedule(self, start, phi=11.3):
+        """Return Φ (k,), weights (k, m) of all loops, and poses (k, n, 3) after each iteration by
+        DCS, Φ annealed from ``start``."""
+        graph = self.graph(self.select_loops())
+        steps = [(each, w, graph.poses.copy()) for each, w in anneal(graph, phi, start)]
+        phis, weights, poses = map(np.array, zip(*steps, strict=True))
+        return phis, weights[:, -len(self.loops) :], poses
+
     def largest_error(self, poses, slam=None):
         """Return the largest position error [m] of poses (n, 3) of keyframes."""
         truth = self.way[first_readings(slam or self.with_gate)]
