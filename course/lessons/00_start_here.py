@@ -78,10 +78,9 @@ scan = RPLIDAR_A2.scan(room, pose, rng)
 print(f"{scan.valid.sum()} of {len(scan.ranges)} beams came back")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# This lidar is simulated, and it loses about as many beams as a real lidar does. All random numbers in the
-# course come from
-# a generator `rng` whose seed is written in the cell, so you get the number that is printed here. With
-# a seed other than 7 you may get a different number.
+# This lidar is simulated. It loses beams about as often as the real lidar of lesson 02. All random numbers in
+# the course come from a generator `rng` whose seed is written in the cell, so you get the number that is printed
+# here. With a seed other than 7 you may get a different number.
 #
 # The next question has choices. The cell below it contains the answer and is folded: it opens when you
 # have chosen an answer, or when you click on its dots.
