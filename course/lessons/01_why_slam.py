@@ -379,9 +379,9 @@ views.explore(
 # {= needed:.3f =} %. For a wheel of 10 cm this tolerance is {= 1000 * needed:.0f =} thousandths of a
 # millimetre.
 #
-# No workshop can make such wheels. But we can measure a systematic error and then remove it from the odometry.
-# This procedure is called *calibration*; lesson [14](14_devices_and_live_slam.ipynb) calibrates a
-# robot.
+# Wear, or another load, changes the radius of a tyre by more than this. But we can measure a systematic error
+# and then remove it from the odometry. This procedure is called *calibration*; lesson
+# [14](14_devices_and_live_slam.ipynb) calibrates a robot.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # **Your turn.** The array `ada`, with columns for $x$, $y$ and $\theta$, contains the odometry
