@@ -651,7 +651,7 @@ views.explore(
 #
 # $K S K^{\mathsf T}$ is the covariance of the correction $K v$. So *the posterior covariance is the
 # prior covariance minus the covariance of the corrections.* Many books print the equivalent form $(I - K H) P$.
-# With other gains, except zero, both forms are wrong; a section *Deeper* computes their error.
+# With most other gains both forms are wrong; a section *Deeper* computes the error of (03.20).
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=9
 # ## The Kalman filter on a run
@@ -747,8 +747,8 @@ views.explore(
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### The rms errors of 200 runs
 #
-# One run is not a proof. So we simulate 200 runs, each with its own start and noise, and compare the three
-# estimates at all steps that have a measurement:
+# One run is not a proof. So we simulate 200 runs, each with its own start and noise, and compare the rms
+# (root mean square) errors of the three estimates at all steps that have a measurement:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 truth, zs = cart.simulate_runs(np.random.default_rng(34), 200)
