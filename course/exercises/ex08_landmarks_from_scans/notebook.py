@@ -502,6 +502,21 @@ check("08-segments")
 
 
 # %%
+def draw_walls(points, share):
+    """Draw a scan, and your walls."""
+    labels = np.asarray(segment(points.copy(), share))
+    fig, ax = views.axes("Your walls; clutter in grey")
+    for k in np.unique(labels):
+        colour, _, mark = views.SERIES[int(k) % len(views.SERIES)]
+        style = {"color": colour, "marker": mark, "markersize": 4}
+        grey = {"color": views.COLOURS["walls"], "markersize": 4}
+        of = layers.Points("scan", points[labels == k])
+        views.draw(ax, of, label="_walls", **(grey if k < 0 else style))
+    views.draw(ax, layers.Poses("robot", [np.zeros(3)]))
+    views.show(fig, alt="A scan of a room with clutter; each wall has its own colour.")
+
+
+# %%
 @attempt
 def _():
     rng = np.random.default_rng(4)
@@ -516,17 +531,26 @@ def _():
     reach *= 1 + 0.015 * rng.standard_normal(180)
     clutter = rng.random(180) < 0.25
     reach[clutter] *= rng.uniform(0.2, 0.95, clutter.sum())
-    points = reach[:, None] * beams
-    labels = np.asarray(segment(points.copy(), 0.015))
-    fig, ax = views.axes("Your walls; clutter in grey")
-    for k in np.unique(labels):
-        colour, _, mark = views.SERIES[int(k) % len(views.SERIES)]
-        style = {"color": colour, "marker": mark, "markersize": 4}
-        grey = {"color": views.COLOURS["walls"], "markersize": 4}
-        of = layers.Points("scan", points[labels == k])
-        views.draw(ax, of, label="_walls", **(grey if k < 0 else style))
-    views.draw(ax, layers.Poses("robot", [np.zeros(3)]))
-    views.show(fig, alt="A scan of a room with clutter; each wall has its own colour.")
+    draw_walls(reach[:, None] * beams, 0.015)
+
+
+# %% [markdown]
+# If the recording of the RPLIDAR A2 is on this computer, the last cell labels one of its revolutions. It is not judged.
+# Which of your walls are not walls?
+
+
+# %% name="a2"
+@attempt
+def _():
+    from slamlab import sources
+
+    try:
+        log = sources.open(sources.recording("rplidar-a2-1"))
+    except sources.SourceError as missing:
+        print(missing)
+        return
+    points = list(log)[2].scan.points()
+    draw_walls(points[np.argsort(np.arctan2(points[:, 1], points[:, 0]))], 0.01)
 
 
 # %% [markdown]
