@@ -78,7 +78,8 @@
 # | $x$ | the state, or the pose | the first coordinate of a pose or a point, even in the same formula (04.4) |
 # | $a$, $b$ | any two poses | in lesson 03 two variances, in lesson 07 two parts of a map, in lesson 13 corresponding points $a_i$ and $b_i$; in exercise 04 the position of a camera on the robot; in exercise 05 an antenna $a$ and a beacon $b_i$ |
 # | $p$ | a point or landmark | $p(x)$ is a density |
-# | $f$, $g$ | motion model, inverse measurement model | in lesson 11 also the target and the proposal density; in lesson 15 $g$ is half the gradient of the cost |
+# | $f$, $g$ | motion model, inverse measurement model | in lesson 15 $g$ is half the gradient of the cost |
+# | $q$ | process noise | in lesson 11 the proposal density, with the target density $\pi$ |
 # | $u$ | control input | in exercise 04 a column of pixels |
 # | $F$ | matrix of a linear motion | in exercise 04 a focal length |
 # | $T$ | duration of a step | with a pose as its subscript, $T_a$, the homogeneous matrix of the pose; as a superscript, $A^{\mathsf T}$, the transpose |

@@ -5,7 +5,7 @@ import numpy as np
 from slamlab.filters import kalman_filter
 
 Q, R = 0.04, 0.25  # variances of a step of 1 m, and of a measured position [m²]
-RIGHT, TWICE, LARGEST = "by the likelihood", "by the drive, too", "the largest weight"
+RIGHT, TWICE, LARGEST = "by the likelihood", "with the motion, too", "the largest weight"
 
 
 def measured(seed, steps=12):
