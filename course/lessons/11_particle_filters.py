@@ -34,6 +34,7 @@ from course.studies import particle_filter_1d as rail
 from course.studies import independent_particle_sets as sets
 from course.studies.global_localisation import CORNERS, HIGH, LOW, MAP, POST, START, STEP, WALLS
 from course.studies.global_localisation import WHEELS, R, evidence, film, look, near
+from course.studies.paired_statistics import percent, share_interval
 from course.studies.study_command import stored
 from slamlab import models, views
 from slamlab.estimators.landmark_observations import observed_landmarks
@@ -976,7 +977,7 @@ print(f"effective sample size {mcl.particles.effective_sample_size:.0f}")
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # The MAK thesis avoids this with its algorithm 2: *one particle set for the robot, and an independent
-# one for each landmark.* This algorithm needs a thousand poses and 300 positions for each landmark, for
+# one for each landmark.* This algorithm uses a thousand poses and 300 positions for each landmark, for
 # any number of landmarks.
 #
 # But the weight of a pose depends on the position of the landmark, and the weight of a landmark's
@@ -1098,12 +1099,12 @@ def row(name):
     """Print a row of the table: the error, its difference from odometry, the share outside."""
     line = f"{name.replace('sets', 'independent sets'):34} {100 * maps[name]['rms'][0]:3.0f} cm"
     if "outside" in maps[name]:
-        more, outside = maps[name]["against odometry"][0], maps[name]["outside"][0]
-        line += f" {100 * more:+14.0f} cm {100 * outside:7.0f} %"
+        more, outside = maps[name]["against odometry"][0], maps[name]["outside"]
+        line += f" {100 * more:+14.0f} cm   {percent(outside)}"
     print(line)
 
 
-HEAD = f"{f'{runs} laps':34}  error  minus odometry's  outside"
+HEAD = f"{f'{runs} laps':34}  error  minus odometry's  outside, 95 % interval"
 print(HEAD)
 for name in (sets.WHEELS, sets.EKF, sets.SETS, sets.ONE):
     row(name)
@@ -1431,12 +1432,14 @@ def adaptive(seed, steps=36):
 
 sizes, both, found_by_kld = np.transpose([adaptive(seed) for seed in range(20)])
 print(f"mean n after the start: {sizes.mean():.0f}", end="; ")
-print(f"both modes after 10 steps: {both.sum():.0f} of 20; found: {found_by_kld.sum():.0f} of 20")
+found_share = percent(share_interval(int(found_by_kld.sum()), 20))
+print(f"both modes after 10 steps: {both.sum():.0f} of 20; found: {found_share}")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# With {= sizes.mean():.0f =} particles on average the robot is found in {= found_by_kld.sum():.0f =} of
-# 20 runs. With a constant number of 200 it was found in {= 100 * found["200"][0]:.0f =} % of the
-# {= runs =} runs above. So the large number of particles is needed mostly at the start. But (11.13)
+# With {= sizes.mean():.0f =} particles on average the robot is found in
+# {= found_share =} of 20 runs. With a constant number of 200 it was found in
+# {= percent(found["200"]) =} of the {= runs =} runs above. This suggests that the large number of particles is needed
+# mostly at the start. But (11.13)
 # bounds the error of *one* draw. It does not prevent the loss of a mode over many resamplings: in
 # {= 20 - both.sum():.0f =} of the 20 runs one mode was lost within ten steps.
 
