@@ -380,11 +380,11 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="07-closing"
-# The true trajectory is black, the estimate blue. A landmark's colour shows its correlation with the
-# landmark in the square, whose rows and columns are framed on the right. (The colour is the mean of two
-# correlations, x with x and y with y.) Just before the loop closure, 5 and its neighbours are red:
-# their errors are strongly *correlated*. Landmark 0, measured from the start, is uncorrelated with
-# them. Now press ▶. A single measurement of landmark 0 moves the estimated pose close to the true one,
+# The true trajectory is black, the estimate blue, and the ellipses contain 95 %. A landmark's colour
+# shows its correlation with the landmark in the square, whose rows and columns are framed on the right.
+# (The colour is the mean of two correlations, x with x and y with y.) Just before the loop closure, 5
+# and its neighbours are red: their errors are strongly *correlated*. Landmark 0, measured from the
+# start, is uncorrelated with them. Now press ▶. A single measurement of landmark 0 moves the estimated pose close to the true one,
 # and moves the landmarks that were added with a large pose error in the same direction.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
@@ -520,7 +520,7 @@ def drop(share_kept, odometry_noise):
 views.explore(
     drop,
     lambda share_kept, odometry_noise: (
-        f"With all cross blocks NEES stays near its band; with {share_kept:.2f} of them kept at "
+        f"With all cross blocks NEES stays near its χ² interval; with {share_kept:.2f} of them kept at "
         f"each step, and {odometry_noise:.1f} times the usual noise of odometry, it reaches "
         f"{mean_nees(share_kept, odometry_noise).max():.0f}."
     ),
@@ -530,7 +530,7 @@ views.explore(
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="07-drop"
 # With all cross blocks the mean NEES never exceeds {= mean_nees(1.0).max():.1f =}; the upper limit of
-# the band is {= band(3, RUNS)[1]:.1f =}. Without cross blocks it rises to
+# the χ² interval is {= band(3, RUNS)[1]:.1f =}. Without cross blocks it rises to
 # {= mean_nees(0.0).max():.0f =}: the errors are {= np.sqrt(mean_nees(0.0).max() / 3):.0f =} times as
 # large as $P$ predicts. The NEES falls at the loop closure, because the first landmarks have small
 # errors and correct the pose, but the filter remains overconfident. A filter that keeps a share of 0.9
@@ -809,7 +809,7 @@ ask(
 
 
 # %% slideshow={"slide_type": "subslide"} answers="07-price" tags=["folded"]
-def price(N, updates=7):
+def price(N, updates=40):
     """Bytes of P, and seconds of one step with four landmarks in range (the best of some)."""
     rng, R = np.random.default_rng(N), np.diag([0.1, 0.03]) ** 2
     mak = MAK([0.3, -0.2, 0.4], np.diag([0.02, 0.03, 0.01]), N)
@@ -1122,10 +1122,10 @@ compare(lengths, np.sqrt(np.diag(G.T @ O_standard.T @ O_standard @ G).clip(0)))
 
 # %% [markdown] slideshow={"slide_type": "notes"} name="note-consistency-in-simulation"
 # *For the lecturer:* Do not read the table row by row. Compare the two rows "standard", and ask why even the
-# ideal filter leaves its band.
+# ideal filter leaves its χ² interval.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-heads = "odometry", "filter", "NEES, mean", "median run", "steps above", "below band", "map, rms"
+heads = "odometry", "filter", "NEES, mean", "median run", "steps above", "steps below", "map, rms"
 lines = [f"| {' | '.join(heads)} |", "|---" * len(heads) + "|"]
 for odometry, table in (("good", "consistency"), ("noisy", "consistency-noisy")):
     study = stored(table)
@@ -1145,8 +1145,8 @@ Markdown("\n".join(lines))
 # together; the ideal one is even a little conservative. With noisy odometry the standard filter has a
 # mean NEES of {= noisy["standard"]["nees"]:.1f =} (median run
 # {= noisy["standard"]["nees_median_run"]:.1f =}) and the largest map errors. With first estimates the map
-# is nearly as accurate as the ideal filter's, but NEES is above the band at more steps. Even the ideal
-# filter leaves the band at some steps, because it has a linearisation error as well.
+# is nearly as accurate as the ideal filter's, but NEES is above the interval at more steps. Even the ideal
+# filter leaves the interval at some steps, because it has a linearisation error as well.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=7
 # ## EKF-SLAM on a real log: Victoria Park
@@ -1206,9 +1206,9 @@ views.show(
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # On the left the map of the standard EKF is *rotated* relative to the batch optimum, by
-# {= abs(rotation):.0f =}° clockwise. Its 95 % ellipses are far too small: only {= inside["standard"] =}
-# of {= trees =} contain the batch position of their tree, which is
-# {= np.median(tree_off["standard"]):.0f =} m away (median). On the right, with first-estimates Jacobians,
+# {= abs(rotation):.0f =}° clockwise. Its 95 % ellipses are far too small: the batch position
+# of the tree, which is {= np.median(tree_off["standard"]):.0f =} m away (median), lies in only
+# {= inside["standard"] =} of {= trees =}. On the right, with first-estimates Jacobians,
 # the batch position is {= np.median(tree_off["first estimates"]):.2f =} m away (median), and
 # {= inside["first estimates"] =} ellipses contain it. The noise covariances of the file are hardly the
 # cause: with them, χ² of the batch optimum is {= np.divide(*park["chi2"]):.2f =} per degree of freedom.
@@ -1303,7 +1303,7 @@ Markdown("\n".join(lines))
 #
 # | what is dropped or postponed | what happens |
 # |---|---|
-# | $P_{\mathrm ri}$ and $P_{ij}$ | the same information is counted many times: NEES far above its band |
+# | $P_{\mathrm ri}$ and $P_{ij}$ | the same information is counted many times: NEES far above its χ² interval |
 # | the update of far landmarks, until the robot leaves | the same result: compressed EKF |
 # | correlations between submaps (there are none) | a difference of a fraction of σ |
 # | $P$ itself: all poses and sparse information instead | no information is lost: graph SLAM, lesson 15 |

@@ -60,16 +60,16 @@ def curves(x, ys, xlabel, ylabel, title=None, size=(6, 3.5)):
 
 
 def against_band(x, ys, limits, xlabel, ylabel, title=None, size=(8, 4)):
-    """Draw curves, such as NEES, on a logarithmic axis with their 95 % band. Returns (Figure,
-    Axes).
+    """Draw curves, such as NEES, on a logarithmic axis with their 95 % χ² interval. Returns
+    (Figure, Axes).
 
     Parameters
     ----------
     x, ys, xlabel, ylabel, title, size : as in :func:`curves`
-    limits : (low, high) of the band
+    limits : (low, high) of the interval
     """
     fig, ax = curves(x, ys, xlabel, ylabel, title, size)
-    band(ax, *limits, "95 % band")
+    band(ax, *limits, "95 % χ² interval")
     ax.set(yscale="log", ylim=(1, 30 * max(map(np.max, ys.values()))))
     ax.yaxis.set_major_formatter(grouped_tick)
     ax.yaxis.set_minor_formatter(NullFormatter())

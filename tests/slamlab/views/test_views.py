@@ -151,7 +151,7 @@ def test_curves_against_a_band_stand_on_a_logarithmic_axis_with_the_band_in_the_
     values = {"a": np.array([2.0, 3.0, 200.0])}
     _, ax = views.against_band(np.arange(3), values, (2.4, 3.7), "step", "mean NEES [1]")
     assert ax.get_yscale() == "log" and ax.get_ylim()[1] > 200
-    assert [text.get_text() for text in ax.get_legend().get_texts()] == ["a", "95 % band"]
+    assert [text.get_text() for text in ax.get_legend().get_texts()] == ["a", "95 % χ² interval"]
     (shade,) = ax.patches
     assert np.allclose([shade.get_y(), shade.get_y() + shade.get_height()], [2.4, 3.7])
 
