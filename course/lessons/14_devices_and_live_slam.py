@@ -461,8 +461,8 @@ views.show(fig, "Two maps of one scan; the right map is the mirror image of the 
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # In the right figure, the minus sign is missing. Both maps have sharp walls, and rooms of both shapes
-# are possible. If we do not know the room, *one* scan cannot show which map is correct. But with the
-# wrong sign, odometry cannot align a second scan with the first, as the next section shows.
+# are possible. If we do not know the room, *one* scan cannot show which map is correct. A
+# second scan can: with the wrong sign it does not fit the first after most turns, as the next section shows.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=10
 # ## Extrinsic calibration: an experiment that detects a wrong sign

@@ -1503,7 +1503,7 @@ for seed in (5, 0):
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Deeper: marginalisation and the Schur complement
 #
-# A robot that drives for a whole day cannot store all poses. To remove a pose without losing the
+# During a whole day the graph of a robot becomes too large. To remove a pose without losing the
 # information of its edges, we **marginalise** it out. Let $m$ be the removed pose and $r$ the remaining
 # poses. If we eliminate $\delta_m$ from the normal equations, the remaining equations are
 #
