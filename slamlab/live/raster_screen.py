@@ -36,7 +36,7 @@ class RasterScreen(Screen):
             f'<img alt="{self._alt}" width="{self._size[0]}" style="max-width: 100%" '
             f'decoding="sync" src="data:image/png;base64,{picture}">'  # without flicker
         )
-        layers = [each for each in scene.drawables if each.kind != "curve"]
+        layers = [each for each in scene.drawables if each.kind != "curve" and len(each.rows)]
         entries = {in_legends(each.name): each.colour for each in layers}
         legend = " ".join(
             f'<span style="color:{colour};background:#ffffff">■</span> {html.escape(name)}'

@@ -18,9 +18,7 @@ def run_scene(source, estimator, beside, count, time):
 
 
 def run_layers(source, estimator, beside, count, truth=True):
-    """Return the layers of a run: the true track, tracks of other estimators, the estimator's
-    layers.
-    """
+    """Return the layers: the true track, tracks of other estimators, the estimator's layers."""
     layers = []
     if truth and source.truth is not None:
         layers.append(Poses("truth", source.truth.poses[:count]))
@@ -53,6 +51,8 @@ def still_picture(scene, title, size):
         panels[-1].set_xlabel("t [s]")
     named = set()
     for layer, drawable in zip(scene.layers, scene.drawables, strict=False):
+        if not len(drawable.rows):
+            continue  # such as loops before the first one
         # one legend entry for each name
         label = f"_{layer.name}" if layer.name in named else in_legends(layer.name)
         named.add(layer.name)

@@ -193,7 +193,7 @@ function draw(canvas, camera, layers, theme, aim) {
   g.setTransform(ratio, 0, 0, ratio, 0, 0);
   g.fillStyle = theme.paper;
   g.fillRect(0, 0, camera.width, full);
-  const entries = legend(g, camera, withColours(layers.named ?? layers.visible, theme));
+  const entries = legend(g, camera, withColours(layers.named ?? layers.visible.filter(({ rows }) => rows.length), theme));
   aim(camera);
   grid(g, camera, theme);
   const [w, h] = camera.inner();

@@ -4,13 +4,16 @@ import sys
 from functools import partial
 
 import ipywidgets
+import numpy as np
 import pytest
 
 from slamlab import estimators, live, sources
+from slamlab.layers import Poses, Segments
 from slamlab.live import run_loop
 from slamlab.live.canvas import LiveCanvas
 from slamlab.live.controls import Controls
 from slamlab.live.estimator_run import EstimatorRun
+from slamlab.live.frame_packing import Scene
 from slamlab.live.raster_screen import RasterScreen
 from slamlab.live.run_loop import RunLoop
 from slamlab.live.run_scene import still_picture
@@ -81,6 +84,17 @@ def test_the_still_has_a_panel_for_each_group_of_curves():
     assert (above.get_title(), below.get_ylabel()) == ("A walk", "way [m]")
     (line,) = below.lines
     assert line.get_xydata().tolist() == [[0, 0], [1, 1]]
+
+
+def test_a_legend_names_only_what_is_drawn():
+    rows = np.zeros((2, 4))
+    layers = [Segments("walls", rows), Segments("loop", rows[:0]), Poses("truth", rows[:0, :3])]
+    (drawn,) = still_picture(Scene(layers), None, (720, 480)).legends
+    assert [text.get_text() for text in drawn.get_texts()] == ["walls"]
+    screen = RasterScreen(ALT)
+    screen.offer(Scene(layers))
+    caption = screen.widget.children[1].value
+    assert caption.count("■") == 1 and "walls" in caption
 
 
 def test_a_script_runs_before_the_still_picture_is_made(stored):
