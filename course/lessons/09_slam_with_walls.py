@@ -597,7 +597,8 @@ negative = {name: int(np.sum(loop.mak.landmarks()[:, 0] < 0)) for name, loop in 
 # - Situation 1: {= map_nees["map_nees"][0]:.2f =}; 95 % interval {= band_1[0]:.2f =} to {= band_1[1]:.2f =}.
 # - Situation 2: {= map_nees["map_nees"][1]:.2f =}; 95 % interval {= band_2[0]:.2f =} to {= band_2[1]:.2f =}.
 #
-# So the map of situation 2 is overconfident, although the pose is not.
+# The mean of situation 1 is at the upper end of its interval. That of situation 2 is far above: this map is
+# overconfident, although the pose is not.
 #
 # Does the filter cause this, or do the extracted lines? The same runs were repeated with the errors of
 # the lines drawn at random from their $R$. Then the means are {= map_nees["map_nees_drawn"][0]:.2f =}
@@ -825,7 +826,7 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="09-corridor"
-# With $(\rho, \alpha)$ the error and $\sigma$ grow together, like the error of odometry: they are
+# With $(\rho, \alpha)$ the RMS error and $\sigma$ grow together, like the error of odometry: they are
 # {= 100 * line_runs.errors[-1]:.0f =} and {= 100 * line_runs.claimed[-1]:.0f =} cm at the end. (These
 # are only 15 runs; the expected error is 10 cm.) With foot points, the filter's $\sigma$ is
 # {= 100 * foot_runs.claimed[-1]:.1f =} cm and its error {= 100 * foot_runs.errors[-1]:.0f =} cm. This
@@ -966,8 +967,8 @@ Markdown("\n".join(rows))
 #
 # In this table a wrong Jacobian or a slightly wrong line does not make the pose estimate diverge. Such
 # a fault makes $P$ wrong, and a wrong $P$ affects another part of the system: associations fail, and
-# walls enter the map twice. A wall placed from the old pose has a more serious effect. Its position was
-# never measured, so the map itself is wrong, and each update fits the pose to the wrong map.
+# walls enter the map twice. A wall placed from the old pose has a more serious effect. No
+# measurement was made from this pose, so the map itself is wrong, and each update fits the pose to the wrong map.
 #
 # The other rows have these faults. *Infinite lines*: the association ignores the ends of walls. *First
 # found*: it uses the first wall within the gate, not the nearest. *New at first observation*: lines
@@ -1185,7 +1186,7 @@ for relocalise, (error, count_of_walls) in slipped.items():
 # The sections below this one are optional.
 #
 # **Exercise:** [09 · SLAM with walls: line landmarks](../exercises/ex09_slam_with_walls.ipynb). You initialise a
-# wall, update with it, manage its track, compute where it ends, and build a map without false walls.
+# wall, manage its track, merge two landmarks of one wall, compute where it ends, and build a map without false walls.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Deeper: thinning the points of a map
