@@ -1308,12 +1308,9 @@ views.show(
 
 # %% slideshow={"slide_type": "subslide"} tags=["folded"]
 intel = intel_maps.stored()
-closed_map = {"scans": Points("corrected", intel.points["graph"][::6])}
-shown = {
-    "icp": {"scans": Points("corrected", intel.points["icp"][::6])},
-    "graph": closed_map | {"loops": Segments("loop", intel.loops)},
-}
-fig, _ = views.side_by_side(shown, size=(7.8, 3.8))
+scans = {name: {"scans": Points("corrected", intel.points[name])} for name in ("icp", "graph")}
+shown = scans | {"graph": {"loops": Segments("loop", intel.loops)} | scans["graph"]}
+fig, _ = views.side_by_side(shown, size=(9.5, 4.6))
 views.show(
     fig,
     f"Left: a floor plan with double walls. Right: the same floor plan with single walls, and "
