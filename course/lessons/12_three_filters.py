@@ -581,7 +581,7 @@ views.explore(
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # The robot is about to complete its first lap. The estimated path is blue, the corners are green, and
-# the uncertainty of the robot's pose is pink: a box, an ellipse or particles. Press ▶ for two more
+# the uncertainty of the robot's pose is pink: a box, a 95 % ellipse or particles. Press ▶ for two more
 # laps. With which filters do the corners still lie on the grey walls at the end?
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=10
@@ -878,9 +878,9 @@ views.show(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# These filters lose this run: {= " and ".join(lost_here) =}. In general, MAK's error grows while no
-# known corner is in view, and drops suddenly when MAK measures a known corner. No measurement corrects
-# odometry: its error falls only where errors cancel by chance, as on the second half of a round trip.
+# These filters lose this run: {= " and ".join(lost_here) =}. MAK's error grows while no known corner is in view,
+# and drops suddenly when MAK measures a known corner. No measurement corrects odometry: its error falls
+# only where errors cancel by chance, as on the second half of a round trip.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## Six data sets, and confidence intervals
@@ -1132,7 +1132,7 @@ assert {more[n] for n in ("MAK", "FastSLAM", "walls")} == {"nearer"}
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # For both kinds of boxes the finding is undecided even after {= runs =} runs: the study cannot show
 # whether the boxes or the particle sets are nearer to the truth before one of the two filters strays.
-# The three filters that represent correlations are nearer than Monte Carlo.
+# The three filters that represent correlations are nearer than Monte Carlo in most runs.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Finding 3: "a lost filter stays lost"
@@ -1201,8 +1201,8 @@ assert free["Monte Carlo"]["lost"][1] > 0.05 and snagged["walls"]["lost"][2] < 0
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # This finding is refuted: Monte Carlo loses {= percent(free["Monte Carlo"]["lost"]) =} of the runs without
-# a snagged cable. The measurements of the thesis were correct, but too few to show such losses. With a
-# snagged cable, the filters with corner landmarks lose about nine of ten runs, as odometry does: their
+# a snagged cable. The runs of the thesis were too few to show such losses. With a snagged
+# cable, the filters with corner landmarks lose about nine of ten runs, as odometry does: their
 # noise models do not include a sudden heading error of 20° to 40°. Only `walls` recovers from such an
 # error, by a search that a *Deeper* section describes.
 
