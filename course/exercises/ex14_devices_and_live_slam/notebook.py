@@ -375,8 +375,8 @@ def _():
 # | at least 88 | 2 |
 # | at least 97 | 2 |
 #
-# As in every task, 0.5 points are for unchanged arguments. `trials` has none, so you get these points with the first
-# row. In all, these are the 7.5 points of the task.
+# As in every task, a function that leaves its arguments unchanged gets 0.5 points. `trials` has no arguments, so you get
+# these points with the first row. In all, these are the 7.5 points of the task.
 #
 # This function makes a sequence from its steps:
 
