@@ -85,7 +85,7 @@ class Lateness:
     def sentence(self, earned):
         """State the penalty and its reasons; ``earned`` are the points before the penalty."""
         policy, days = self.policy, "1 day" if self.days == 1 else f"{self.days} days"
-        grace = f", with {number(policy.grace_minutes)} minutes of grace"
+        grace = f" (up to {number(policy.grace_minutes)} minutes later without a penalty)"
         due, when = (local_time(t, t.tzinfo, named=True) for t in (self.due, self.handed_in))
         share, each, most = map(_percent, (self.share, policy.per_day, policy.at_most))
         return (

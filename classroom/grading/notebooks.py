@@ -47,7 +47,9 @@ def parse(data: bytes, lesson=False) -> Notebook:
     try:
         content = json.loads(text)
     except RecursionError:
-        raise SubmissionError(f"the file is nested too deeply to be a notebook: {SAVE}") from None
+        raise SubmissionError(
+            f"the file is no notebook (too many nested brackets): open your notebook, {SAVE}"
+        ) from None
     except json.JSONDecodeError as error:
         raise SubmissionError(_damage(text, error)) from None
     except ValueError:  # more digits than Python accepts
@@ -97,8 +99,8 @@ def _damage(text, error):
     if conflict:
         line = text.count("\n", 0, conflict.start()) + 1
         return (
-            f"git marked a conflict of two versions in line {line} of the file (<<<<<<<): delete "
-            f"one version and the marks, then {SAVE}"
+            f"git marked a conflict of two versions in line {line} of the file (<<<<<<<): open "
+            f"the file in a text editor, delete one version and the marks, then {SAVE}"
         )
     begin = text.lstrip()[:20].lower()
     for signs, kind in _OTHER_KINDS.items():

@@ -19,7 +19,7 @@ _REMEDIES = {
     ".py": f"it is a Python program: {_AGAIN}",
     **dict.fromkeys((".pdf", ".html", ".htm"), f"it is a printed copy: {_AGAIN}"),
     **dict.fromkeys((".url", ".webloc", ".desktop"), "it is a link: download the notebook, and "
-                    "submit this file"),
+                    "submit the downloaded file"),
     **dict.fromkeys((".7z", ".rar", ".tar", ".gz", ".tgz", ".xz", ".bz2"), "it is an archive that "
                     "cannot be opened here: submit the notebook itself"),
     ".zip": "it is a zip within a zip: submit the notebook itself",
@@ -183,17 +183,18 @@ def identify_exercise(submission: Submission, notebook: Notebook, bound=None):
         return catalogue.exercise(submission.taken_as)
     named = notebook.exercise
     if named is not None and named not in catalogue.EXERCISES:
-        message = f"the metadata name exercise {named[:20]!r}, which does not exist"
-        known = f"the exercises are {', '.join(catalogue.EXERCISES)}"
-        raise SubmissionError(f"{message}; {known}: copy your solution into a new notebook")
+        raise SubmissionError(
+            f"the notebook states exercise {named[:20]!r}, which does not exist: copy your "
+            "solution into a new copy of the exercise's notebook, and submit this copy"
+        )
     stated = {"its metadata": named, "its file name": None, "--exercise": bound and bound.zfill(2)}
     if not (named and bound):  # the file name matters only if one of them is missing
         stated["its file name"] = _exercise_by_name(submission.name)
     stated = {source: id for source, id in stated.items() if id}
     if not stated:
         raise SubmissionError(
-            "neither the metadata nor the start of the file name states the exercise; submit it "
-            "under its original name, or grade it with --exercise"
+            "the file does not state which exercise it is: give it the name that it had at first, "
+            "and submit it again (graders: use --exercise)"
         )
     if len(set(stated.values())) > 1:
         source, other = next(iter(stated.items()))
@@ -203,7 +204,10 @@ def identify_exercise(submission: Submission, notebook: Notebook, bound=None):
                 f"graded here: submit the notebook of exercise {bound.zfill(2)}"
             )
         by_source = ", ".join(f"{id} by {source}" for source, id in stated.items())
-        raise SubmissionError(f"the exercise is {by_source}; grade it with --exercise")
+        raise SubmissionError(
+            f"the exercise is {by_source}: give the file the name that it had at first, and submit "
+            "it again (graders: use --exercise)"
+        )
     return catalogue.exercise(next(iter(stated.values())))
 
 

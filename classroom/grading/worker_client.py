@@ -236,8 +236,8 @@ def _batches(cells):
 
 def _loss_message(kind, seconds):
     if kind == "time":
-        return f"still running after {seconds:g} s"
-    return "ended the whole Python process"
+        return f"still running after {seconds:g} s, so it was stopped"
+    return "ended the whole Python process, for example by exit() or by using too much memory"
 
 
 def _text(value):

@@ -120,7 +120,7 @@ def test_names_of_any_kind_are_found(tmp_path):
         (b"<!DOCTYPE html><html>", "a web page that was renamed"),
         (b"[1, 2]", "no cells and no metadata"),
         (b'{"cells": 3}', "no list of cells"),
-        (b'{"cells": ' + b"[" * 100_000, "nested too deeply"),
+        (b'{"cells": ' + b"[" * 100_000, "too many nested brackets"),
         (b'{"nbformat": 3, "worksheets": [{"cells": 5}]}', "cannot be upgraded"),
     ],
     ids=lambda value: repr(value[:40]),

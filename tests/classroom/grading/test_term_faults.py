@@ -42,7 +42,7 @@ def test_the_exercise_on_the_command_line_binds_and_the_metadata_precede_the_nam
         SubmissionError, match="exercise 01 according to its file name, but exercise 04"
     ):
         identified("ex01_why_slam.ipynb", SILENT, "04")
-    with pytest.raises(SubmissionError, match="the metadata name exercise '77', which"):
+    with pytest.raises(SubmissionError, match="the notebook states exercise '77', which"):
         identified("99_fake.ipynb", notebook(exercise="77"))
 
 
@@ -71,7 +71,7 @@ def test_a_solved_exercise_submitted_as_another_earns_nothing(tmp_path):
 )
 def test_a_number_somewhere_in_a_name_determines_no_exercise(name):
     assert identified(name, SILENT, "04") == "04"
-    with pytest.raises(SubmissionError, match="grade it with --exercise"):
+    with pytest.raises(SubmissionError, match="graders: use --exercise"):
         identified(name, SILENT)
 
 

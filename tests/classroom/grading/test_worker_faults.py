@@ -188,7 +188,7 @@ for i in range(30):
 time.sleep(8)
 """
     with WorkerPool(sandbox.BASIC, warm=False) as pool:
-        assert cells_of(hoards, by=pool) == {1: "ended the whole Python process"}
+        assert "using too much memory" in cells_of(hoards, by=pool)[1]
 
 
 def test_problems_of_cells_run_again_after_inputs_are_not_recorded(tmp_path):
