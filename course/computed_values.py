@@ -13,6 +13,7 @@ import nbformat
 from slamlab.views.notebook_output import grouped
 
 MARK = re.compile(r"\{=\s*(.+?)\s*=\}", re.DOTALL)
+_LIST = re.compile(r"(?<=.\n)\{=[^{}]*=\}(?=\.\s)")
 _MINUS = re.compile(r"(?<!\w)-(?=[\d.])")
 _PER_CENT = re.compile(r"(?<=\d)%")
 _ADDED = "slamlab_values"  # metadata of a computing cell
@@ -106,7 +107,9 @@ def _computing(wanted):
 
 
 def _fill(cell, values):
-    cell.source = MARK.sub(lambda found: _typeset(values[found[1]]), cell.source)
+    # a value that begins a line and ends a sentence would begin a list: "1. …"
+    whole = _LIST.sub(r"\g<0>\\", cell.source)
+    cell.source = MARK.sub(lambda found: _typeset(values[found[1]]), whole)
     known = cell.metadata.get("slamlab", {})
     cell.metadata["slamlab"] = nbformat.from_dict(known | {"values": values})
 

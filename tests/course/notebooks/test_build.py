@@ -352,6 +352,12 @@ def test_values_in_prose_are_computed_where_they_stand_and_kept_without_running(
     assert stored(root).cells[3].source == "So it is −2.5, or 25 %."
 
 
+def test_a_value_that_ends_a_sentence_begins_no_list(root):
+    of_list = VALUE.replace("It is {= total:.1f =}, or", "It is\n# {= total + 3.5:.0f =}. It is")
+    tool.build(write(root, of_list), root=root)
+    assert stored(root).cells[3].source == "It is\n1\\. It is 6.25."
+
+
 def test_a_value_that_cannot_be_computed_is_reported_with_its_position(root):
     path = write(root, VALUE.replace("total ** 2", "nobody"))
     with pytest.raises(CourseError, match=r"90_sums\.py:\d+: two-and-two-3 failed(.|\n)*nobody"):
