@@ -392,6 +392,7 @@ views.explore(
 # go to the end, and ask why its neighbours have stronger correlations with it than distant landmarks.
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="07-closing"
+# σ of the robot and of landmark 9 around the loop closure
 met = slam.filter.ids[0]  # the source's name of landmark 0
 again = next(k for k, each in enumerate(drive) if k > 48 and met in each.observations.ids)
 sigmas = {}
@@ -539,6 +540,7 @@ views.explore(
 # share of about 0.99 causes no visible overconfidence.
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="07-drop"
+# the errors of the laps, with all cross blocks and with none
 kept, dropped = laps(1.0, 1.0), laps(0.0, 1.0)
 for name, some in (("all kept", kept), ("nothing kept", dropped)):
     better = sum(lap.rms < lap.wheels_rms for lap in some)
@@ -899,7 +901,8 @@ def predict_and_update(filter, pose, reading):
 
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="07-delay"
-for start in range(85, 169, 21):  # the second lap, a quarter at a time
+# the second lap, a quarter at a time, by both filters
+for start in range(85, 169, 21):
     quarter = readings[start : start + 21]
     around = sorted({i for reading in quarter for i in reading.observations.ids.tolist()})
     compressed.focus(around)
@@ -931,6 +934,7 @@ print(f"largest difference of any number in x and P: {off:.9f}")
 # definition.)
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# one large filter, and submaps of 23 steps that are joined
 trip = LandmarkRun(LAP, np.random.default_rng(7))
 readings, one, joined = list(trip), EkfSlam(trip.robot, trip.sensor), JoinedMap()
 for start in range(0, len(readings), 23):
@@ -1046,11 +1050,12 @@ ask(
 )
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="07-rank"
+# the rank of O, and how far O maps the three unobservable directions from zero
 for name, first_estimates in (("standard", False), ("first estimates", True)):
     stack, state = observability.observability_matrix(first_estimates)
     gained = np.linalg.norm(stack @ observability.rigid_scene_motions(state), axis=0) + 0
     text = ", ".join(
-        f"{way} {size:.6f}" for way, size in zip(("x", "y", "rotation"), gained, strict=True)
+        f"{way} {size:.3f}" for way, size in zip(("x", "y", "rotation"), gained, strict=True)
     )
     print(f"{name}: rank {np.linalg.matrix_rank(stack)} of {len(state)}; lengths of O G: {text}")
 
@@ -1125,6 +1130,7 @@ compare(lengths, np.sqrt(np.diag(G.T @ O_standard.T @ O_standard @ G).clip(0)))
 # ideal filter leaves its χ² interval.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# the consistency of each filter in 400 simulated runs
 heads = "odometry", "filter", "NEES, mean", "median run", "steps above", "steps below", "map, rms"
 lines = [f"| {' | '.join(heads)} |", "|---" * len(heads) + "|"]
 for odometry, table in (("good", "consistency"), ("noisy", "consistency-noisy")):
@@ -1164,6 +1170,7 @@ Markdown("\n".join(lines))
 # from the same data. Ask where a filter without linearisation error would end.
 
 # %% slideshow={"slide_type": "fragment"}
+# EKF-SLAM on the beginning of the log
 park = victoria_park.stored()
 poses, measurements, trees = park["counts"].astype(int)
 try:
@@ -1405,7 +1412,8 @@ H_later = H.subs({p_x: p_x + e_x, p_y: p_y + e_y}, simultaneous=True)
 product = H_later * directions
 at = {x: 0, y: 0, theta: 0, p_x: 3, p_y: 0}
 print("translations:", sp.simplify(product[:, :2]).is_zero_matrix)
-sp.simplify(product[:, 2].subs(at)), sp.simplify(product[:, 2].subs(at | {e_x: 0, e_y: 0}))
+rotation = sp.simplify(product[:, 2].subs(at))
+sp.Matrix.hstack(rotation, rotation.subs({e_x: 0, e_y: 0}))  # with both errors, and without
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # The translations remain unobservable, because $H_{\mathrm p} = -H_{\mathrm r}$ in x and y at every
