@@ -751,6 +751,7 @@ views.explore(
 # (root mean square) errors of the three estimates at all steps that have a measurement:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# 200 runs: dead reckoning, the range finder alone, and the filter
 truth, zs = cart.simulate_runs(np.random.default_rng(34), 200)
 measured = np.isfinite(zs[0, :, 0])
 found, reckoned = filtered(zs), filtered(np.full_like(zs, np.nan))
@@ -1068,6 +1069,7 @@ def innovation_tests(found, steps):
 
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# the tests of filters that assume a wrong noise
 cases = {"true noise": (zs, 1, 1), "process noise × 0.5": (zs, 0.5, 1)}
 cases |= {"process noise × 2": (zs, 2, 1), "measurement noise × 0.5": (zs, 1, 0.5)}
 cases |= {"measurement noise × 2": (zs, 1, 2), "process × 0.1, measurement × 2": (zs, 0.1, 2)}
@@ -1407,6 +1409,7 @@ for sigma in (1, 1e-5, 1e-6):
 # the Joseph form, too. The next cell runs the Kalman filter of this library on the first of our 200 runs:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# the same runs by the library filterpy
 from filterpy.kalman import KalmanFilter
 
 theirs = KalmanFilter(dim_x=2, dim_z=1)

@@ -1315,6 +1315,7 @@ views.show(
 # covariance is updated only once.
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
+# five iterations of the update
 prior, P_prior = np.zeros(3), np.diag([0.5, 0.5, 0.3]) ** 2
 near, R_near = np.array([1.0, 0.3]), np.diag([0.02, 0.02]) ** 2
 z = models.h(np.array([0.7, -0.7, 0.5]), near)  # from the true pose
