@@ -638,6 +638,7 @@ ask(
 )
 
 # %% slideshow={"slide_type": "fragment"} name="cure" answers="01-cure"
+# the same readings, mapped by scan matching
 matched = run(robot, estimators.make("icp", robot))
 estimated = matched.trajectory.poses
 for name, poses in {"dead reckoning": reckoned, "icp": estimated}.items():
@@ -680,6 +681,7 @@ for seed in (0, 1, 2):
     laps.append((lap.truth.poses, run(lap, estimators.make("icp", lap))))
 
 # %% slideshow={"slide_type": "-"} name="more-laps-table"
+# the errors of each lap, and of a step
 ends, steps = [], []  # of each lap: by odometry, by icp
 for true, result in laps:
     trajectories = result.naive.poses, result.trajectory.poses
