@@ -1123,7 +1123,7 @@ def annealed(iteration, first_phi):
     scans = false_loops.keyframe_points(twins.with_gate)
     for label, layer in scan_layers(poses[-1], scans).items():
         views.draw(right_ax, layer, label=label)
-    right_ax.set(xlim=(-4, 17), ylim=(-11, 9))
+    right_ax.set(xlim=(-7, 17), ylim=(-11, 9), adjustable="box")
     views.legend_below(fig)
     return fig
 
