@@ -33,10 +33,11 @@ def run(arguments) -> int:
     try:
         notebook = find_lesson(arguments.lesson)
         out = arguments.out or Path(notebook.stem + ".pdf")
-        count, missing = write_handout(notebook, out, arguments.notes)
+        (slides, pages), missing = write_handout(notebook, out, arguments.notes)
     except (LessonError, Unavailable, OSError) as error:
         return refuse("handout", error)
-    print(f"{out}: {count} slides")
+    more = f"; full slides continue, so there are {pages} pages of slides"
+    print(f"{out}: {slides} slides{more * (pages > slides)}")
     for what in missing:
         print(f"slamlab handout: {what}", file=sys.stderr)
     return int(bool(missing))

@@ -9,7 +9,7 @@ OPTIONS = {"print_background": True, "prefer_css_page_size": True, "outline": Tr
 
 
 def write_handout(notebook, out, notes=False, screen=SCREEN):
-    """Print a lesson's slides; return the number of slides and messages about missing ink.
+    """Print a lesson's slides; return (slides, pages of slides) and messages about missing ink.
 
     notes : whether to print notes below the slides. screen : (width, height) [pixels]. Raises
     Unavailable, LessonError, OSError."""
@@ -24,4 +24,4 @@ def write_handout(notebook, out, notes=False, screen=SCREEN):
         missing.append(
             f"{ink}: {lost} strokes are not printed, because the content below them is missing"
         )
-    return made["leaves"], missing
+    return (made["slides"], made["leaves"]), missing

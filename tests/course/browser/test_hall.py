@@ -279,6 +279,16 @@ def test_no_slide_is_a_line_of_code_and_nothing_later_is_left_of_earlier(visit, 
     assert left == sorted(left)
 
 
+def test_printed_lines_are_whole_or_reported(visit, lab_folder):
+    cells = [
+        part for k, words in enumerate((45, 80)) for part in slide(k, f"print('x ' * {words})")
+    ]
+    nbformat.write(fresh(*cells), lab_folder / "hall_printed.ipynb")
+    begin(visit, "hall_printed.ipynb")
+    faults = [stop["faults"] for stop in visit.page.evaluate(WALK)]
+    assert faults == [[], ["breaks a printed line"]]
+
+
 def test_a_lecture_whose_notebook_is_closed_gives_back_the_keys(lecture):
     lecture.page.evaluate("() => { jupyterapp.shell.currentWidget.dispose(); }")
     lecture.page.wait_for_selector(".slamlab-deck", state="detached")

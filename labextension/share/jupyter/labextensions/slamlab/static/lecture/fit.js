@@ -12,6 +12,7 @@ const PICTURE_FIRST = [...COLUMNS.slice(0, 2), "minmax(0, 3fr) minmax(0, 2fr)"];
 const LETTERS = 0.75; // minimum scale of a figure's text
 const LARGEST = 4; // maximum scale of a figure
 const FIGURE = "img.slamlab-figure";
+export const PRINTED = ".jp-OutputArea-output pre";
 
 // Zoom at which a page of the default size fills the screen.
 export function zoomOf(size) {
@@ -118,6 +119,7 @@ export function layOut(page, notebook, { cells, shrink, columns, figure }, zoom)
   page.style.setProperty("--slamlab-figure", figure);
   page.style.setProperty("--slamlab-columns", columns);
   page.classList.toggle("slamlab-columns", Boolean(columns));
+  inSight(page, PRINTED).forEach((one) => shrinkPrinted(one, shrink));
   const first = isPicture(notebook.widgets[cells[0]]);
   for (const index of cells) {
     const cell = notebook.widgets[index];
@@ -125,6 +127,21 @@ export function layOut(page, notebook, { cells, shrink, columns, figure }, zoom)
     cell.node.classList.toggle("slamlab-picture", Boolean(columns) && picture);
     cell.node.classList.toggle("slamlab-right", Boolean(columns) && picture === !first);
   }
+}
+
+// Width of printed lines that do not break, relative to the slide's.
+export function printedWidth(one) {
+  one.style.whiteSpace = "pre";
+  const wide = one.scrollWidth / one.clientWidth;
+  one.style.whiteSpace = "";
+  return wide;
+}
+
+// Make printed lines smaller if this keeps them whole.
+function shrinkPrinted(one, shrink) {
+  one.style.removeProperty("--slamlab-printed");
+  const scale = 0.99 / printedWidth(one);
+  if (scale < 0.99 && scale * shrink >= LETTERS) one.style.setProperty("--slamlab-printed", scale);
 }
 
 const isWhole = (one) => one.scrollWidth <= one.clientWidth + 1;

@@ -8,10 +8,10 @@ import { notesOf, pictureOf } from "./slide_snapshot.js";
 const WAITS = /^Run this cell (for its controls|to answer)\.$/; // not printed
 const STROKE = ".slamlab-stroke:not(.slamlab-unseen)";
 
-// Replace the document by leaves, one for every page; returns their number, whether the ink file was
+// Replace the document by leaves, one for every page; returns the number of slides and of leaves, whether the ink file was
 // read, and the number of strokes without a leaf.
 export async function leaves(panel, { notes }) {
-  const deck = panel.slamlabDeck, { title } = deck.slides[0], book = element("main", "slamlab-book");
+  const deck = panel.slamlabDeck, { title } = deck.slides[0], slides = deck.slides.length, book = element("main", "slamlab-book");
   const inkRead = await deck.ink.loaded;
   for (deck.go(0); ; deck.next()) {
     const { slide, shown } = deck, next = deck.stops[deck.at + 1];
@@ -34,7 +34,7 @@ export async function leaves(panel, { notes }) {
   await Promise.all([...book.querySelectorAll("img")].map((one) => one.decode().catch(() => {})));
   document.title = title; // of the PDF; JupyterLab would name the file
   const inked = new Set([...book.querySelectorAll(STROKE)].map((one) => one.dataset.stroke));
-  return { leaves: book.children.length, inkRead, lost: deck.ink.strokes.length - inked.size };
+  return { slides, leaves: book.children.length, inkRead, lost: deck.ink.strokes.length - inked.size };
 }
 
 function style({ width, height }, notes) {

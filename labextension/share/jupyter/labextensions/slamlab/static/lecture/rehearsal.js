@@ -1,6 +1,6 @@
 // Rehearsal, called by `slamlab rehearse`: run the lesson, and step through its stops.
 
-import { fits } from "./fit.js";
+import { fits, PRINTED, printedWidth } from "./fit.js";
 import { FRAMES, settled } from "./rendering.js";
 import { slidesOf } from "./slides.js";
 
@@ -84,6 +84,8 @@ function faultsOf({ notebook, page, shown, slides, slide, stops, at }) {
   if (lines.length === seen.length) found.push("shows only a line of folded code");
   const heads = seen.every(({ node }) => node.querySelector(":is(h1, h2, h3)") && !node.querySelector("p, li, table, mjx-container, img"));
   if (heads && stops[at + 1]?.slide === slide) found.push("shows only a heading at first");
+  const printed = seen.flatMap(({ node }) => [...node.querySelectorAll(PRINTED)]).filter(visible);
+  if (printed.some((one) => printedWidth(one) > 1.001)) found.push("breaks a printed line");
   const isRight = ({ node }) => node.matches(".slamlab-right");
   if (page.matches(".slamlab-columns") && seen.every(isRight)) found.push("has an empty left half");
   const texts = seen.filter(({ model }) => model.type === "markdown").map(({ node }) => node.textContent);
