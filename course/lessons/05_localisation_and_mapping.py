@@ -1012,21 +1012,20 @@ outside = np.sum((joint > high_20) | (joint < low_20))
 # measures the landmarks that it initialised while its pose was still accurate.
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
+# the position errors of all filters
 believed = {"odometry alone": [ekf_runs.odometry_poses(one) for one in runs]}
 believed |= {name: [poses for _, poses, _ in result] for name, result in results.items()}
 rms = {n: np.array(list(map(ekf_runs.rms, runs, poses))) for n, poses in believed.items()}
-odometry_rms, together_rms, pretending_rms, careful_rms = rms.values()
+odometry_rms, together_rms, _, careful_rms = rms.values()
 for name, errors in rms.items():
     wins = f"less than odometry's in {np.sum(errors < odometry_rms):2} of {RUNS} runs"
-    print(f"{name:33} median RMS position error {np.median(errors):.2f} m, {wins}")
+    print(f"{name:33} median rms error {np.median(errors):.2f} m, {wins}")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # In most of these runs the poses of both schemes are better than those of odometry alone. But their covariance
 # is wrong. A program that uses this covariance to associate a landmark or to avoid a wall may make wrong
-# decisions. In {= np.sum(careful_rms < pretending_rms) =} of {= RUNS =} runs the careful scheme has a smaller
-# RMS error
-# than the scheme that treats the other estimate as exact. The joint filter has a smaller RMS error than
-# the careful scheme in {= np.sum(together_rms < careful_rms) =} runs.
+# decisions. The joint filter has a smaller rms error than the careful scheme in
+# {= np.sum(together_rms < careful_rms) =} of {= RUNS =} runs.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Let the class argue for the careful scheme first. The idea is reasonable, and the reason
@@ -1208,7 +1207,7 @@ views.show(
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # The longest filtered ellipse is {= lengths["filtered"].max():.1f =} m long, the longest smoothed one
-# {= lengths["smoothed"].max():.1f =} m. On this lap the RMS position error falls from {= errors[0]:.2f =}
+# {= lengths["smoothed"].max():.1f =} m. On this lap the rms position error falls from {= errors[0]:.2f =}
 # m to {= errors[1]:.2f =} m. In the last part of the lap filter and smoother agree: the robot measures no
 # landmark of the map there, so no later measurements exist.
 
@@ -1222,6 +1221,7 @@ views.show(
 # *For the lecturer:* Ask before you run the cell whether the order would matter for a linear sensor.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# the information of a measurement; then all measurements in another order
 x, p = np.array([1, 2, 0.4]), np.array([3, 2.5])
 H_there, P_before = jacobians.H_robot(x, p), np.diag([0.1, 0.2, 0.05]) ** 2
 b, _ = ekf_localisation.update(Belief(x, P_before), [models.h(x, p)], [p], R)
@@ -1250,6 +1250,7 @@ print(f"in another order, coordinates change by up to {1000 * np.abs(moved).max(
 # adds to this block.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# one filter for all landmarks, with exact poses
 large = MAK(np.zeros(3), np.zeros((3, 3)))
 for x, reading in zip(run.truth.poses, run, strict=True):
     large.predict(x, np.zeros((3, 3)))
