@@ -263,12 +263,13 @@ one.update(range(4), measured[1], R_STAR)
 maps.append(one.landmarks())
 still_off = 100 * np.hypot(*(one.pose - POSES["truth"])[:2])
 was_off = 100 * np.hypot(*(POSES["predicted"] - POSES["truth"])[:2])
-estimated = [Poses("predicted", [POSES["predicted"]]), Poses("truth", [POSES["truth"]])]
+estimated = {name: Poses(name, [pose]) for name, pose in POSES.items()}
+old, updated = (Points("landmark", each) for each in maps)
 placed = Points("scan", models.g(POSES["predicted"], measured[1]))
 pictures = {
-    "augmentation": [Points("landmark", maps[0]), Poses("truth", [np.zeros(3)])],
-    "prediction, measurement": [Points("landmark", maps[0]), placed, *estimated],
-    "update": [Points("landmark", maps[1]), *estimated, Poses("corrected", [one.pose])],
+    "augmentation": [old, Poses("truth", [np.zeros(3)])],
+    "prediction, measurement": {"landmark": old, "measured again": placed, **estimated},
+    "update": [updated, *estimated.values(), Poses("corrected", [one.pose])],
 }
 fig, _ = views.side_by_side(pictures, size=(9.2, 3.8))
 for marks in fig.findobj(lambda artist: getattr(artist, "get_marker", str)() == "."):
@@ -590,6 +591,7 @@ ask(
 # bearing. (Here σ of a position is $\sqrt{\sigma_x^2 + \sigma_y^2}$, the root of the trace of its block.)
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="06-unseen"
+# the robot drives back and measures a again
 story.predict(compose(story.pose, [0, 0, np.pi]), Q_SLIP)
 for _ in range(5):
     story.predict(compose(story.pose, STEP * [1, 1, 0]), Q_SLIP)
@@ -974,7 +976,7 @@ def range_and_noise(sensor_range, turn_noise):
     right.plot(steps, values, color=views.COLOURS["corrected"], lw=2, label="chosen values")
     before = views.COLOURS["before"]
     right.plot(steps, as_before, color=before, lw=2, ls="dashed", label="2.5 m, 0.7°/s")
-    views.band(right, *LIMITS, "95 % band")
+    views.band(right, *LIMITS, "95 % χ² interval")
     right.set(
         xlabel="step", ylabel="mean NEES [1]", yscale="log", ylim=(1, max(100, 1.5 * values.max()))
     )
@@ -988,7 +990,7 @@ views.explore(
     lambda sensor_range, turn_noise: (
         f"With a sensor range of {sensor_range:.1f} m and turn rates with σ = "
         f"{turn_noise:.1f}°/s: the map of one run, and the mean NEES of all runs beside the mean "
-        "NEES with the first values, which stays near its band."
+        "NEES with the first values, which stays near its χ² interval."
     ),
     sensor_range=(1.0, 5.0, 1.5),
     turn_noise=(0.2, 3.0, 1.8),
@@ -1055,6 +1057,7 @@ compare(NEES, nees(error, P_rr_last))
 # point then never changes. Which of the two methods makes the filter more consistent in our 12 runs?
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# the same 12 runs with other Jacobians
 worse = replace(LOOP, range_max=1.5, omega_sigma=np.radians(1.8))
 others = ("ideal", "first estimates")
 tried = [consistency.errors_of(seed, worse, others) for seed in range(12)]
@@ -1081,7 +1084,8 @@ views.show(
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # First-estimates Jacobians reduce NEES in
 # {= np.sum(of_runs["first estimates"] < of_runs["standard"]) =} of 12 runs, and Jacobians at the truth
-# reduce it in {= np.sum(of_runs["ideal"] < of_runs["standard"]) =}. The medians are
+# reduce it in {= np.sum(of_runs["ideal"] < of_runs["standard"]) =}. (Twelve runs are few; lesson 07 compares
+# the three filters in 400 runs.) The medians are
 # {= np.median(of_runs["standard"]):.1f =} (standard), {= np.median(of_runs["ideal"]):.1f =} (at the
 # truth) and {= np.median(of_runs["first estimates"]):.1f =} (first estimates). The mean of a consistent
 # filter is 3, and its median is a little lower. So part of the inconsistency comes from Jacobians that
@@ -1093,9 +1097,9 @@ views.show(
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Neighbouring steps of a run have correlated errors, so ten consecutive steps
-# outside the band count as one event. `python -m course.studies.consistency` simulates a hundred runs
-# of seven laps each, with standard, first-estimates and ideal Jacobians on the same readings, and
-# writes the table that lesson 07 shows.
+# outside the interval count as one event. `python -m course.studies.consistency --runs 400`
+# simulates runs of seven laps, with standard, first-estimates and ideal Jacobians on the same readings,
+# and writes the table that lesson 07 shows.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=3
 # ## The order of the three steps
@@ -1121,6 +1125,7 @@ ask(
 )
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="06-order"
+# ten runs with each order of the steps
 ten = runs[:10]
 right_order = faults.final_errors(ten)
 wrong_order = faults.final_errors(ten, landmarks_first=True)
@@ -1135,7 +1140,7 @@ print(f"{'odometry alone':30} {odometry_last:18.2f}")
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="06-order"
 # (√trace is the σ of the robot's position according to $P$.) The errors of the map are
 # {= wrong_order.landmarks / right_order.landmarks:.1f =} times as large, and the mean NEES is
-# {= wrong_order.nees:.0f =} instead of {= right_order.nees:.1f =}. The map still looks plausible, and
+# {= wrong_order.nees:.1f =} instead of {= right_order.nees:.1f =}. The map still looks plausible, and
 # the pose is still more accurate than odometry. Such a mistake is found only if somebody computes NEES
 # or, without a ground truth, NIS.
 
@@ -1261,6 +1266,7 @@ carried = np.hypot(*(misled.landmarks() - correct.landmarks()).T)
 # variance to the map, but not rotate the map.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# the same runs with a wide initial covariance
 P_WIDE = np.diag([0.1, 0.1, np.radians(5)]) ** 2
 first_estimates = partial(MAK, first_estimates=True)
 table = {
@@ -1346,6 +1352,7 @@ print("left:", story.ids, " P of robot and b unchanged:", np.array_equal(story.P
 # *For the lecturer:* Only students who implement the filter themselves need this section.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# the product B Bᵀ of the library's update
 mak = kept[60].marginal(kept[60].ids)
 P_then, last_ids = mak.P, mak.ids[-3:]
 step = mak.update(
@@ -1374,7 +1381,7 @@ print(f"P − B Bᵀ is the new P: {np.allclose(mak.P, P_then - step.B @ step.B.
 
 # %% slideshow={"slide_type": "fragment"} tags=["folded"]
 def shown(share, count=4):
-    """RMS error of the shown pose after the loop closure, its jumps, error of shown landmarks [cm]."""
+    """Rms error of the shown pose after the loop closure, its jumps, error of shown landmarks [cm]."""
     squares = []
     for one in runs[:count]:
         slam = EkfSlam(one.robot, one.sensor, smoothing=share, landmark_smoothing=share)
@@ -1393,7 +1400,7 @@ for share, (error, jump, landmark) in smoothed.items():
     print(f"error of the landmarks {landmark:.1f} cm")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The shown pose is smoother, but its RMS error over these four runs is not smaller. The estimate uses every
+# The shown pose is smoother, but its rms error over these four runs is not smaller. The estimate uses every
 # measurement so far, and the old difference contains the error that the last measurement has just
 # corrected. For a display, smoothness may be more important than this error; a controller should use
 # the estimate.
