@@ -500,7 +500,7 @@ sizes = nees(errors, R_each)
 
 # %% [markdown] slideshow={"slide_type": "notes"} name="note-ransac"
 # *For the lecturer:* Let the class estimate the number of trials for $w = 0.5$. (17.) Point at the last
-# column of the output: $k$ guarantees a sample without outliers, not a good line.
+# column of the output: $k$ makes a sample without outliers likely, but not a good line.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 w, q, k = sp.symbols("w q k", positive=True)
@@ -847,6 +847,7 @@ views.explore(
 # Here is the same extraction from twelve places in these rooms:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# recall and false lines of three methods
 methods = {"15 mm": THESIS, "100 mm": replace(THESIS, band=0.1), GROWN: None}
 for beams in (100, 400, 1600):
     lidar, row = replace(LIDAR, beams=beams), []
@@ -856,7 +857,7 @@ for beams in (100, 400, 1600):
     print(f"{beams:4} beams   " + "   ".join(row))
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# With a band of 15 mm only the near walls are found, for any number of beams. With a band of 100 mm
+# With a band of 15 mm only the near walls are found, with any of the three numbers of beams. With a band of 100 mm
 # more walls are found, but all readings within 10 cm of a line count as its inliers. With 1600 beams,
 # 25 neighbouring readings cover such a short piece that the direction of the line becomes random. The
 # grown lines do not need a compromise between the two widths. Instead they require the value of
@@ -885,7 +886,7 @@ ROOM = [FURNISHED, *(extraction.evaluate_world(worlds.room(), None, 12, k) for k
 # harder. For three random sets of twelve places each, {= 100 * min(m.recall for m in ROOM):.0f =} to
 # {= 100 * max(m.recall for m in ROOM):.0f =} % of the wall length is found, and
 # {= 100 * min(m.false for m in ROOM):.1f =} to {= 100 * max(m.false for m in ROOM):.1f =} % of what is
-# found is false: the reason is that legs and pillars divide the walls into pieces, and a few readings
+# found is false: the table, the cupboard and the pillars hide pieces of the walls, and a few readings
 # on a pillar can look flat enough to be accepted as a wall. In the exercise you find the pillars
 # themselves.
 
@@ -1260,6 +1261,7 @@ for inside in (0.9, 0.95, 0.99, 0.999):
 # one wall. The exercise detects all three.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# three observed lines and two walls, with both gates
 mak = MAK(HOME, np.zeros((3, 3)), kind=LINES)
 mak.add(["A", "B"], EXPECTED, R)
 mak.predict(HOME, np.diag([0.05, 0.05, 0.15]) ** 2)  # an inaccurate turn on the spot
@@ -1332,8 +1334,8 @@ print("A and B jointly {:.1f}, A and C {:.1f}; gate {:.2f}".format(*jointly, chi
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "08-trial",
-    "A wall is confirmed after **N** observations. Which false walls are still confirmed when N "
-    "is large?",
+    "A wall is confirmed after **N** observations. Which false walls are the last to "
+    "disappear when N grows?",
     {
         "those that noise makes": "noise rarely causes the same false wall twice. But not every error is noise.",
         "those that look the same from scan to scan": "the side of a round pillar looks flat each time, as long "
@@ -1531,6 +1533,7 @@ def correlations_of_shared_walls(errors):
 
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# the corners of 120 scans, and the correlation of a wall's corners
 rng = np.random.default_rng(10)
 by_scan = [corner_errors(LIDAR.scan(world, HOME, rng)) for _ in range(120)]
 sizes = np.concatenate([sizes for sizes, _ in by_scan])
@@ -1619,9 +1622,9 @@ def draw_estimates(observations, estimated_x):
         "true position": Points("truth", TRUE_POSE[None, :2]),
         "prior, 95 % ellipse": ellipse("predicted", [estimated_x, 0.0], P_START),
         "with (ρ, α), 95 %": ellipse("corrected", *as_line),
-        "its foot point, 95 %": ellipse("naive", *as_foot),
+        "by its foot point, 95 %": ellipse("naive", *as_foot),
     }
-    draw_all(ax, layers, wall={"lw": 3}, true={"markersize": 12}, its={"lw": 2})
+    draw_all(ax, layers, wall={"lw": 3}, true={"markersize": 12}, by={"lw": 2})
     ax.set(xlim=(-1.5, 3), ylim=(-0.6, 2.4), aspect="equal", adjustable="box")
     views.legend_below(fig)
     return fig
