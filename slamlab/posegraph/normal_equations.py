@@ -67,13 +67,13 @@ class NormalEquations:
         return out[:-1].reshape(self.count, -1)
 
 
-def factorise(H):
-    """Factorise H (sparse factorisation: LU in symmetric mode, in place of sparse Cholesky). Raises
-    ValueError if H is singular."""
+def factorise(H, order="NATURAL"):
+    """Factorise H (sparse factorisation: LU in symmetric mode, in place of sparse Cholesky), its
+    columns in this order of ``splu``. Raises ValueError if H is singular."""
     try:
-        # relax=1: on such graphs, merging columns of different pattern costs more than it saves
-        options = {"diag_pivot_thresh": 0.0, "relax": 1, "options": {"SymmetricMode": True}}
-        return splu(H, permc_spec="NATURAL", **options)
+        # relax=1, panel_size=1: the factors of such graphs are so sparse that columns go one by one
+        options = {"diag_pivot_thresh": 0.0, "relax": 1, "panel_size": 1}
+        return splu(H, order, options={"SymmetricMode": True}, **options)
     except RuntimeError:
         raise ValueError(
             "the poses are under-constrained by these edges: an information matrix is nearly "
@@ -88,5 +88,4 @@ def _fill_reducing_order(pairs, free):
     links = (links + links.T)[free][:, free]
     # any matrix of this pattern is suitable, such as a diagonally dominant one
     links = (links + sparse.diags_array(links.sum(axis=1) + 1)).tocsc()
-    factors = splu(links, permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True})
-    return np.argsort(factors.perm_c)
+    return np.argsort(factorise(links, "MMD_AT_PLUS_A").perm_c)

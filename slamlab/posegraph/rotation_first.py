@@ -6,9 +6,9 @@ and so is that of the positions once the headings are known: two linear least-sq
 
 import numpy as np
 from scipy import sparse
-from scipy.sparse.linalg import splu
 
 from slamlab.geometry import compose
+from slamlab.posegraph.normal_equations import factorise
 
 
 def initial_poses(count, pairs, measured, information, roots):
@@ -50,7 +50,7 @@ def _solve(pairs, factors, steps, logs, x, free):
     A = sparse.coo_array((entries, at), shape=(len(pairs), len(x))).tocsc()
     b, A = weights * steps - A[:, ~free] @ x[~free], A[:, free]
     H, g = (A.conj().T @ A).tocsc(), A.conj().T @ b
-    lu = splu(H, "MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+    lu = factorise(H, "MMD_AT_PLUS_A")
     x = x.astype(complex)
     x[free] = lu.solve(g) if np.iscomplexobj(H) else lu.solve(g.real) + 1j * lu.solve(g.imag)
     return x
