@@ -12,7 +12,7 @@ from slamlab.posegraph.edge_jacobians import J_i, J_j
 from slamlab.posegraph.normal_equations import NormalEquations, factorise
 from slamlab.posegraph.robust_kernels import LeastSquares
 
-STEP_TOLERANCE = 1e-6  # converged: squared length of a step in standard deviations [1]
+STEP_TOLERANCE = 1e-3  # converged: squared length of a step in standard deviations [1]
 NO_KERNEL = LeastSquares()
 MIN_DAMPING, MAX_DAMPING = 1e-7, 1e12  # below the least: no damping; above the most: give up
 

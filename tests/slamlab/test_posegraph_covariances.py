@@ -81,7 +81,7 @@ def test_landmarks_and_priors_have_the_covariances_of_the_dense_inverse():
         graph.add_edge(i, i + 1, [1, 0.1, -0.2], np.diag([80, 60, 100]))
     for i in (0, 1, 2):
         graph.add_edge(i, point, [1, 1.5 - 0.2 * i], [[9, 1], [1, 16]])
-    assert graph.optimise().converged
+    assert graph.optimise(tolerance=1e-9).converged
 
     def whitened(free):
         x = np.append(free, 0).reshape(4, 3)
