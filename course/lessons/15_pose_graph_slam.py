@@ -1164,7 +1164,8 @@ print("false loops   trusted   Huber   DCS from 10⁹   DCS from 10⁴   library
 every = len(single)
 by_count = {count: errors_with(twins.select_loops(count)) for count in (0, 1, 3, 10, every)}
 for count, errors in by_count.items():
-    print("{:11d} {:7.1f} m {:5.1f} m {:12.1f} m {:12.1f} m {:7.1f} m".format(count, *errors))
+    words = (f"{error:.{0 if error > 1 else 1}f} m" for error in errors)
+    print("{:11d} {:>9} {:>7} {:>14} {:>14} {:>9}".format(count, *words))
 alone = np.array([errors_with([*right, one]) for one in single])
 ruined = (alone > 1).sum(axis=0)  # errors of more than 1 m
 row = "each alone {:7d} {:8d} {:13d} {:14d} {:10d}".format(*ruined)
