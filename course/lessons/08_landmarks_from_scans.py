@@ -849,12 +849,13 @@ views.explore(
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 # recall and false lines of three methods
 methods = {"15 mm": THESIS, "100 mm": replace(THESIS, band=0.1), GROWN: None}
+print("beams   " + "   ".join(f"{name}: found, false" for name in methods))
 for beams in (100, 400, 1600):
     lidar, row = replace(LIDAR, beams=beams), []
     for name, ransac in methods.items():
         m = extraction.evaluate_world(rooms, ransac, 12, lidar=lidar)
-        row.append(f"{name}: {100 * m.recall:3.0f} % found, {100 * m.false:2.0f} % false")
-    print(f"{beams:4} beams   " + "   ".join(row))
+        row.append(f"{100 * m.recall:{len(name) + 5}.0f} % {100 * m.false:4.0f} %")
+    print(f"{beams:5}   " + "   ".join(row))
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # With a band of 15 mm only the near walls are found, with any of the three numbers of beams. With a band of 100 mm

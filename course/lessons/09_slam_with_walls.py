@@ -1082,7 +1082,7 @@ shares = {name: while_turning(wall_slam_faults.VARIANTS[name]) for name in both}
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="09-order"
 for name, (share, heading) in shares.items():
-    print(f"{name:28} while it turns {100 * share:3.0f} % of the lines are associated;", end=" ")
+    print(f"{name:28} lines associated in turns: {100 * share:3.0f} %;", end=" ")
     print(f"heading off by up to {heading:.1f}°")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="09-order"
