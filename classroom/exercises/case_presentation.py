@@ -67,6 +67,11 @@ def _relaxed(inputs, outputs):
     return inputs, {k: outputs[k] for k in ("box", "outliers")} if outputs["left"] else NONE
 
 
+def _verdict(inputs, outputs):
+    names = np.array(['better = "A"', 'better = "B"', 'better = "cannot tell"'])
+    return inputs, {k: names[int(a)] if k == "better" else a for k, a in outputs.items()}
+
+
 STEPS = (
     "{} is called once for each step. Each call gets the rows and weights that the previous call "
     "returned, and the same rng; call k gets {}. The first call gets rng = "
@@ -134,5 +139,6 @@ PRESENTATIONS = {
         "close_loops is given poses, edges (k, k + 1, measured[k], information[k]), and loops "
         "from the rows of the other arrays:"
     ),
+    "16-versions": CasePresentation(shown=_verdict),
 }
 """Presentations by task id; in all other tasks, the arrays are the arguments and results."""

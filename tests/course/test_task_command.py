@@ -55,7 +55,7 @@ def test_a_task_that_was_begun_follows_the_style(copy):
     assert run(copy, "new", "16", "a-gate").returncode == 0
     folder = next((copy / "course" / "exercises").glob("ex16_*"))
     headings = re.findall(r"^# ## (.*)", (folder / "notebook.py").read_text("utf-8"), re.M)
-    assert "4 · …" in headings and any(heading.startswith("3 · ") for heading in headings)
+    assert "5 · …" in headings and any(heading.startswith("4 · ") for heading in headings)
     for check in (["check"], ["format", "--check"]):
         ruff = [sys.executable, "-m", "ruff", *check, "--config", ROOT / "pyproject.toml", folder]
         done = subprocess.run(ruff, cwd=copy, capture_output=True, text=True)

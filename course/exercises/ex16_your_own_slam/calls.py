@@ -4,7 +4,12 @@ from functools import partial
 
 import numpy as np
 
-from classroom.exercises.function_calls import FunctionCall, StudentError
+from classroom.exercises.function_calls import (
+    FunctionCall,
+    StudentError,
+    argument_rows,
+    to_shaped_array,
+)
 from classroom.exercises.function_calls.student_estimator import StudentEstimator
 from slamlab.geometry import compose
 from slamlab.readings import Reading, Scan
@@ -15,6 +20,7 @@ SHORT_RANGE = 5.0  # of the lidar in the loop: after a gap scans hardly overlap 
 WHEELS_ONLY = "MySlam still uses odometry alone: its poses equal those of odometry"
 NO_COVARIANCE = "MySlam has no covariance: not attempted yet"
 SECONDS = 20.0
+VERDICTS = "A", "B", "cannot tell"
 
 
 def _run_estimators(functions, inputs, range_max=RANGE_MAX):
@@ -75,8 +81,27 @@ def integrate_odometry(increments):
     return np.array(poses[1:])
 
 
+def _call_comparison(functions, inputs):
+    """Call compare_versions for each study; return low, high, better (in VERDICTS) and needed."""
+    compare, found = functions["compare_versions"], []
+    for row in argument_rows(inputs):
+        value = compare(*row)
+        if not isinstance(value, tuple | list) or len(value) != 4:
+            must = "compare_versions must end with: return low, high, better, needed"
+            raise StudentError("malformed", must)
+        low, high, better, needed = value
+        if str(better) not in VERDICTS:
+            must = f"better must be one of {', '.join(map(repr, VERDICTS))}"
+            raise StudentError("malformed", f"{must}, but it is {str(better)[:40]!r}")
+        named = zip(("low", "high", "needed"), (low, high, needed), strict=True)
+        low, high, needed = (to_shaped_array(each, f"its {name}", ()) for name, each in named)
+        found.append([low, high, VERDICTS.index(str(better)), needed])
+    return dict(zip(("low", "high", "better", "needed"), np.transpose(found), strict=True))
+
+
 CALLS = {
     "16-corridor": FunctionCall((NAME,), _run_estimators, SECONDS),
     "16-loop": FunctionCall((NAME,), partial(_run_estimators, range_max=SHORT_RANGE), SECONDS),
     "16-sure": FunctionCall((NAME,), _run_with_covariances, SECONDS),
+    "16-versions": FunctionCall(("compare_versions",), _call_comparison),
 }

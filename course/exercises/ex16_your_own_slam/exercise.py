@@ -1,18 +1,20 @@
 """Exercise 16, a student's own SLAM.
 
-``corridor``, ``loop``, ``sure``: one milestone each; ``short_runs``: the runs of all milestones.
+``corridor``, ``loop``, ``sure``: one milestone each; ``short_runs``: the runs of all milestones;
+``versions``: the comparison of two versions.
 """
 
 from classroom.exercises.exercise import Exercise
 from course.exercises.ex16_your_own_slam.corridor.task import CORRIDOR
 from course.exercises.ex16_your_own_slam.loop.task import LOOP
 from course.exercises.ex16_your_own_slam.sure.task import SURE
+from course.exercises.ex16_your_own_slam.versions.task import VERSIONS
 
 EXERCISE = Exercise(
     id="16",
     notebook="16_your_own_slam",
     title="Your own SLAM: benchmarks and evaluation",
-    tasks=(CORRIDOR, LOOP, SURE),
+    tasks=(CORRIDOR, LOOP, SURE, VERSIONS),
     calls="course.exercises.ex16_your_own_slam.calls",
     allows=(
         "slamlab.geometry",

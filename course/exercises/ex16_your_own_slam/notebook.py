@@ -4,7 +4,7 @@
 # **You will be able to** write a complete SLAM program, run it in simulated buildings that it was not tuned for, and
 # decide by measurements whether a change has improved it.
 #
-# **180 minutes for the three milestones, and more time if you like. Before:** lesson
+# **180 minutes for the three milestones and the comparison, and more time if you like. Before:** lesson
 # [16 · Your own SLAM: benchmarks and evaluation](../notebooks/16_your_own_slam.ipynb).
 #
 # The class `MySlam` below already runs, but it uses odometry alone. Therefore its score is 0. Improve it. You may change
@@ -27,6 +27,8 @@
 # as below: such cells are not run in a contest. All lengths are in metres, all angles in radians.
 
 # %%
+import numpy as np
+
 from classroom.checks import ask, attempt, check
 
 # %% name="my-slam" solved="project/solution.py" given="project/template.py"
@@ -87,10 +89,10 @@ def _():
 # of `trajectory()`, relative to the first pose. In both runs
 #
 # * it must be less than half of the error of odometry (1 point), and
-# * it must be less than 0.3 m (1.5 more points).
+# * it must be less than 0.3 m (1 more point).
 #
-# Together with 0.5 points for unchanged arguments, which you get with the first other points, these are the 3 points
-# of this milestone. The check of a milestone stops after 20 s.
+# The remaining 0.5 points of each task are for unchanged arguments; you get them with the first other points. The check
+# of a milestone stops after 20 s.
 #
 # The methods of lesson 13 are sufficient: match each scan with the previous ones, with odometry as the initial guess.
 # If you have solved exercise 13, you have all parts that you need.
@@ -106,13 +108,13 @@ check("16-corridor")
 # error of about 0.1 rad. The scans before and after this gap hardly overlap, so scan matching alone cannot detect
 # this error. All poses are compared relative to the first pose, as in milestone 1. In both of two runs,
 #
-# * back at the start, the mean position error of the last five poses must be less than 0.1 m (2 points), and
-# * the root mean square position error of all poses of `trajectory()` must be less than 0.12 m (2 points). A loop
+# * back at the start, the mean position error of the last five poses must be less than 0.1 m (1.5 points), and
+# * the root mean square position error of all poses of `trajectory()` must be less than 0.12 m (1.5 points). A loop
 #   closure also corrects the poses before it.
 #
 # Lesson 15 shows a method: find an old pose near the current one, match the current scan with the scans near this old
 # pose, and let a pose graph distribute the error over the loop. Another method may also pass: match each scan with a
-# map of the whole run. With the 0.5 points for unchanged arguments, this milestone has 4.5 points.
+# map of the whole run.
 
 # %%
 check("16-loop")
@@ -129,24 +131,74 @@ check("16-loop")
 #
 # | required | points |
 # | --- | --- |
-# | in each of the twelve runs, the standard deviation of the position, $\sqrt{P_{xx} + P_{yy}}$, grows by a factor of at least 2 from reading 10 to reading 29; there it is at least 1.5 times that of the same run with all scans | 1, only together with the next row |
-# | the mean NEES of the twelve runs lies between 0.25 and 8 in readings 1 to 9, and also in readings 27 to 29; and in readings 1 to 9 the mean position error is less than 0.95 times that of odometry | 2, only together with the row above |
+# | in each of the twelve runs, the standard deviation of the position, $\sqrt{P_{xx} + P_{yy}}$, grows by a factor of at least 2 from reading 10 to reading 29; there it is at least 1.5 times that of the same run with all scans | 0.5, only together with the next row |
+# | the mean NEES of the twelve runs lies between 0.25 and 8 in readings 1 to 9, and also in readings 27 to 29; and in readings 1 to 9 the mean position error is less than 0.95 times that of odometry | 1.5, only together with the row above |
 #
 # The expected NEES of a consistent covariance is 3. The interval is wide because there are only twelve runs, and the
 # errors of neighbouring readings are correlated. A constant covariance earns nothing, and a consistent covariance of
-# odometry alone is not enough either. With the 0.5 points for unchanged arguments, this milestone has 3.5 points. In a
-# contest an inconsistent covariance costs up to 20 points, and a missing covariance costs none.
+# odometry alone is not enough either. In a contest an inconsistent covariance costs up to 20 points, and a missing
+# covariance costs none.
 
 # %%
 check("16-sure")
 
 # %% [markdown]
-# ## Measure your score
+# ## 4 · Compare two versions in the same worlds
 #
-# The milestones judge only whether an error is below a limit. The score is a finer measure. The next cell runs your
-# SLAM in one world of each of three families. Before you conclude that a change is an improvement, run both versions
-# in several worlds, and use the *same* worlds for both (lesson 16). A contest uses five worlds (`worlds=5`) of each
-# of the seven families.
+# The milestones judge only whether an error is below a limit. The score is a finer measure. But is a better score an
+# improvement, or chance? Two versions of a SLAM, A and B, have run in practice worlds, which have numbers. In a world, both
+# get the same readings. For each version, you have the numbers of its worlds and its error in each of them, in the order
+# in which its runs ended. Either version may have run in worlds in which the other one has not.
+#
+# As in the lesson, errors differ by factors. Let $d$ be the logarithm of the factor in a world, $\ln(e_A / e_B)$ with the
+# errors $e_A$ and $e_B$. We want a 95 % **t interval** of the mean of $d$, converted back to a factor. In which worlds do
+# you know $d$? Most errors differ because their worlds differ: does this difference make the interval wider? And the
+# standard deviation of $d$ is an estimate from a few numbers: does this make the interval wider or narrower?
+#
+# **Your task.** Return the four values of the table. The versions have at least two worlds in common. All errors are
+# positive, and the ratio of the errors is not the same in all worlds. A *t* quantile with three decimals is accurate enough.
+# If you import a module, import it inside the function, so that a contest does not import it before each world.
+#
+# | value | meaning | points |
+# | --- | --- | --- |
+# | `low`, `high` | the ends of the interval of the factor, which is below 1 if A has the smaller errors | 1 |
+# | `better` | the version with the smaller errors, `"A"` or `"B"`, if the interval does not contain 1; otherwise `"cannot tell"` | 0.5 |
+# | `needed` | the smallest number of common worlds, at least 2, with which the interval would not contain 1, if $d$ had the same mean and the same standard deviation in these worlds; 1000 if it is larger than that | 0.5 |
+
+
+# %% name="compare-versions"
+def compare_versions(worlds_a, errors_a, worlds_b, errors_b):
+    """A paired comparison of two versions of a SLAM.
+
+    worlds_a : (n,) integers, the worlds of version A, each one once;  errors_a : (n,) its errors there [m]
+    worlds_b, errors_b : (m,) the same of version B;  returns low, high, better, needed
+    """
+    ### BEGIN SOLUTION
+    from scipy import stats
+
+    _, a, b = np.intersect1d(worlds_a, worlds_b, return_indices=True)
+    d = np.log(errors_a[a]) - np.log(errors_b[b])
+    mean, s = d.mean(), d.std(ddof=1)
+
+    def half_width(n):
+        return stats.t.ppf(0.975, n - 1) * s / np.sqrt(n)
+
+    half = half_width(len(d))
+    low, high = np.exp(mean - half), np.exp(mean + half)
+    better = "A" if high < 1 else "B" if low > 1 else "cannot tell"
+    too_few = half_width(np.arange(2, 1000)) >= abs(mean)
+    needed = 2 + np.sum(too_few)
+    return low, high, better, needed
+    ### END SOLUTION
+
+
+# %%
+check("16-versions")
+
+# %% [markdown]
+# The next cell runs your SLAM in two worlds of each of three families, and compares its errors over 20 m of travel with
+# those of the library's `icp` and `graph` in the same worlds. To compare it with an older version of your own, store the
+# errors of this version in the same way. A contest uses five worlds (`worlds=5`) of each of the seven families.
 
 
 # %% name="families"
@@ -154,8 +206,34 @@ check("16-sure")
 def _():
     from classroom.project.practice import practise, table
 
-    print(table(practise(MySlam, ["corridor", "people", "dropouts"], seed=2)))
+    trials = practise(MySlam, ["corridor", "people", "dropouts"], worlds=2, seed=2)
+    print(table(trials))
+    worlds, errors = np.arange(len(trials)), {"MySlam": [t.result for t in trials]}
+    for name in ("icp", "graph"):
+        errors[name] = [t.prepared_world.judge(t.prepared_world.runs[name]) for t in trials]
+    errors = {name: np.array([r.measures.errors[-1] for r in own]) for name, own in errors.items()}
+    for name in ("icp", "graph"):
+        low, high, better, needed = compare_versions(worlds, errors["MySlam"], worlds, errors[name])
+        print(
+            f"A: MySlam, B: {name}: factor {low:.2f} to {high:.2f}, {better}; {needed} worlds needed"
+        )
 
+
+# %%
+ask(
+    "ex16-needed",
+    "In a few worlds A is better, but the interval contains 1, and `needed` is 12. You run both versions in **12 new worlds**. "
+    "**With which probability does the interval of these worlds show that A is better**, if the mean and the standard deviation "
+    "were estimated correctly?",
+    {
+        "95 %": "95 % is the probability that an interval contains the true factor.",
+        "about 50 %": "with 12 worlds, the mean is about as large as the half-width of its interval. In about half of all "
+        "studies the new mean is smaller. So plan more worlds than `needed`: 24 worlds would give about 85 %. And do not stop "
+        "as soon as an interval excludes 1.",
+        "100 %": "the new worlds have another mean and another standard deviation, because they are other worlds.",
+    },
+    right="about 50 %",
+)
 
 # %% [markdown]
 # These ideas often help, in no particular order:

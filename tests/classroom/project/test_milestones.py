@@ -16,7 +16,7 @@ from course.project.template import MySlam as Template
 from slamlab.geometry import compose, transform
 
 SEEDS = [OPEN_SEED, b"one", b"two"]
-CORRIDOR, LOOP, SURE = EXERCISE.tasks
+CORRIDOR, LOOP, SURE = MILESTONES = EXERCISE.tasks[:3]
 
 
 def verdict(task, make, seed=OPEN_SEED):
@@ -98,7 +98,7 @@ def claiming(claim, of=Solution):
     return Claiming
 
 
-@pytest.mark.parametrize("task", EXERCISE.tasks, ids=lambda task: task.id)
+@pytest.mark.parametrize("task", MILESTONES, ids=lambda task: task.id)
 @pytest.mark.parametrize("seed", SEEDS)
 def test_the_solution_passes_and_the_template_has_not_attempted(task, seed):
     assert verdict(task, Solution, seed).full
@@ -221,7 +221,7 @@ def test_a_covariance_that_only_grows_earns_nothing():
     assert verdict(SURE, Growing).points == 0
 
 
-@pytest.mark.parametrize("task", EXERCISE.tasks, ids=lambda task: task.id)
+@pytest.mark.parametrize("task", MILESTONES, ids=lambda task: task.id)
 def test_no_array_contains_the_truth_and_odometry_is_far_from_it(task):
     inputs = task.draw_inputs(OPEN_SEED)[MAIN]
     truth = short_runs.route(inputs)

@@ -62,7 +62,7 @@ CORRIDOR = Task(
         BETTER,
         Law(
             "good",
-            1.5,
+            1,
             f"in both runs, the mean position error of the last five poses is less than {FAR} m",
             lambda inputs, outputs: (ends(inputs, outputs)[0] < FAR).all(),
             why=_why,

@@ -40,7 +40,7 @@ LOOP = Task(
     laws=(
         Law(
             "met",
-            2,
+            1.5,
             f"back at the start, the mean position error of the last five poses is less than "
             f"{MET} m",
             lambda inputs, outputs: (met(inputs, outputs) < MET).all(),
@@ -51,7 +51,7 @@ LOOP = Task(
         ),
         Law(
             "carried",
-            2,
+            1.5,
             f"the root mean square position error of all poses is less than {CARRIED} m",
             lambda inputs, outputs: (carried(inputs, outputs) < CARRIED).all(),
             why=_why,

@@ -100,7 +100,7 @@ SURE = Task(
     laws=(
         Law(
             "grows",
-            1,
+            0.5,
             f"while the scans are lost, σ of the position grows by a factor of at least {GROWS:g}, "
             f"to at least {DEPENDS:g} times that of the same run with all scans",
             _grows,
@@ -112,7 +112,7 @@ SURE = Task(
         ),
         Law(
             "honest",
-            2,
+            1.5,
             f"σ grows so; the mean NEES lies between {LOW} and {HIGH:g} before the scans are lost, "
             "and in the last three readings without a scan; and before the scans are lost, the "
             f"mean position error is less than {OF_ODOMETRY} times that of odometry",
