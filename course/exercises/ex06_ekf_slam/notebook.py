@@ -450,6 +450,45 @@ def careful_step(x, P, ids, u, seen, z, C, R):
 check("06-false-sights")
 
 # %% [markdown]
+# If the log of Victoria Park is on this computer, the last cell runs your `slam_step` on its first 1000 lines: a car
+# with a laser scanner measures the trunks of trees. It is not judged. Where does your estimate jump, and which trees
+# does the car measure there?
+
+
+# %% name="victoria-park"
+@attempt
+def _():
+    from slamlab import sources
+    from slamlab.sources import gtsam_text
+
+    try:
+        log = gtsam_text.load(sources.recording("victoria-park"))[:1000]
+    except sources.SourceError as missing:
+        print(missing)
+        return
+    x, P, ids, still = np.zeros(3), np.zeros((3, 3)), [], (np.zeros(2), np.zeros((2, 2)))
+    odometry = track = x[None]
+    for line in log:
+        (u, C), seen, z, R = still, [], np.empty((0, 2)), np.eye(2)
+        if line.of_landmark:
+            r = np.hypot(*line.z)
+            seen, z = [line.j], np.array([[r, np.arctan2(*line.z[::-1])]])
+            R = line.covariance / [1, r**2]  # the same σ along and across the beam
+        else:
+            u, C = line.z[[0, 2]], line.covariance[np.ix_([0, 2], [0, 2])]
+            odometry = np.vstack([odometry, f_odometry(odometry[-1], u)])
+        x, P, ids = slam_step(x, P, ids, u, seen, z, C, R)
+        track = np.vstack([track, x[:3]])
+    parts = [slice(k, k + 2) for k in range(3, len(x), 2)]
+    fig, ax = views.axes("Victoria Park, by your filter", size=(9, 5))
+    views.draw(ax, Ellipses("landmark", [x[s] for s in parts], [P[s, s] for s in parts]))
+    views.draw(ax, Poses("naive", odometry))
+    views.draw(ax, Poses("corrected", track))
+    views.legend(ax, loc="upper left", bbox_to_anchor=(1, 1))
+    views.show(fig, alt="A car's trajectory by odometry and by your filter, trees with ellipses.")
+
+
+# %% [markdown]
 # ## Done?
 #
 # Save the notebook. The cell below then shows the grader's verdict. The grader draws other inputs.
