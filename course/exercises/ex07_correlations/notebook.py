@@ -421,7 +421,7 @@ ask(
 # doors are connected by a chain of doors; each door of the chain and the next one were passed on
 # the same morning. The number of doors varies. The check stops after 10 s.
 #
-# **How it is scored.** The check draws 48 corridors of eight doors. It judges three averages over
+# **How it is scored.** The check draws 96 corridors of eight doors. It judges three averages over
 # the corridors:
 #
 # - The mean square error of the doors, divided by the smallest possible mean square error.
@@ -429,19 +429,19 @@ ask(
 #   with their covariance by your `P`, divided by $m - 1$. Its expected value is 1.
 # - The NEES of the *single doors*: the square error of each door divided by its variance in your
 #   `P`, averaged over the doors. The entries of `P` beside the diagonal are not used. Its expected
-#   value is 1. It is averaged twice: over the 24 corridors whose common errors are small in units of
+#   value is 1. It is averaged twice: over the 48 corridors whose common errors are small in units of
 #   `sigma`, and over the 24 others.
 #
 # | row | required | points |
 # | --- | --- | --- |
-# | 1 | mean square error at most 1.4 times the least possible | 1 |
+# | 1 | mean square error at most 1.65 times the least possible | 1 |
 # | 2 | mean square error at most 1.04 times the least possible | 1 |
 # | 3 | row 1, and NEES of the distances from 0.9 to 1.1 | 1 |
 # | 4 | row 1, and NEES of the single doors from 0.8 to 1.3 in both halves | 1.5 |
 #
 # Rows 3 and 4 require row 1, but not row 2, and row 4 does not require row 3. The points of all
 # rows that you reach are added. Leaving the arguments unchanged is worth another 0.5 points. Row 1
-# is also judged on eight corridors of two doors and on eight corridors of fourteen doors.
+# is also judged on 24 corridors of two doors and on 24 corridors of fourteen doors.
 
 
 # %%
