@@ -178,8 +178,8 @@ def narrow(robot, heading, objects, z, bounds):
 
     low, high = float(heading[0]), float(heading[1])
     pieces = [(low, high, polygon(low, high))]
-    for level in range(6):
-        if pieces[-1][1] - pieces[0][0] < 0.01 or len(pieces) > 20:
+    for level in range(8):
+        if pieces[-1][1] - pieces[0][0] < 0.001 or len(pieces) > 80:
             break
         new = []
         for a, b, _ in pieces:
