@@ -514,6 +514,7 @@ def draw_where(**values):
 
 
 # %% slideshow={"slide_type": "fragment"} answers="05-circle"
+# where the robot may be
 views.explore(
     draw_where,
     lambda landmarks_measured, heading_sigma: (

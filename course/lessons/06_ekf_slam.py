@@ -653,6 +653,7 @@ compare(K_b, step_a.K[5:7])
 # </details>
 
 # %% slideshow={"slide_type": "subslide"} answers="06-unseen"
+# the correlations before and after the update
 pictures = {"before the update": correlation(P_was), "after": correlation(story.P)}
 fig, _ = views.correlations(pictures, ["robot", "a", "b"], size=(9, 4.5))
 weakest = np.abs(pictures["after"][5:7, 3:5]).max()
@@ -870,6 +871,7 @@ def at_step(step):
 
 
 # %% slideshow={"slide_type": "fragment"}
+# the map and its correlations at each step
 views.explore(
     at_step,
     lambda step: (
@@ -1187,6 +1189,7 @@ def outlier_map(range_too_long_by):
 
 
 # %% slideshow={"slide_type": "fragment"}
+# the map after one outlier
 views.explore(
     outlier_map,
     lambda range_too_long_by: (
