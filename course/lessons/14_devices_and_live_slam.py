@@ -1162,7 +1162,26 @@ ask(
     right="far from the robot",
 )
 
-# %% slideshow={"slide_type": "subslide"} answers="14-live"
+# %% [markdown] slideshow={"slide_type": "subslide"} answers="14-live"
+# ### Drive the robot yourself
+#
+# The figure below has three buttons:
+#
+# - **A recording** needs no robot: press *reset* and *run*.
+# - **A robot**: press this button, then *run*. Drive with the buttons, or click the figure and use the
+#   arrow keys (the space bar stops the robot). You can also type the commands of the thesis:
+#   `distance, angle`, `reset`, `exit`. With `0.5, 30` the robot turns by 30° and then drives half a
+#   metre; the estimated pose controls both motions.
+# - **A robot, calibrated** uses your own scale factors. They also improve the map by odometry alone,
+#   but the wheels still slip.
+#
+# To draw the estimate alone, write `naive=None` instead of `naive=(-8.5, 0)` in the cell below. The
+# page of `slamlab live` has a checkbox for this purpose.
+#
+# The robot stops if you press *pause* or *exit*, run the cell again, or end the kernel, as long as the
+# link works.
+
+# %% slideshow={"slide_type": "skip"} answers="14-live"
 played = {
     "A recording": lambda rng: sources.open(drive),
     "A robot": robot,
@@ -1189,23 +1208,6 @@ naive_off, corrected_off = trials.errors(seen_live.pair.estimator, true.poses[-1
 # angles. The far walls differ most. In the estimated map every wall is one line. Both maps are computed
 # from the same bytes. At the end of this simulated run the position error of odometry alone was
 # {= naive_off:.0f =} cm, and that of the estimate {= corrected_off:.0f =} cm.
-
-# %% [markdown] slideshow={"slide_type": "subslide"} answers="14-live"
-# ### Drive the robot yourself
-#
-# - **A recording** needs no robot: press *reset* and *run*.
-# - **A robot**: press this button, then *run*. Drive with the buttons, or click the figure and use the
-#   arrow keys (the space bar stops the robot). You can also type the commands of the thesis:
-#   `distance, angle`, `reset`, `exit`. With `0.5, 30` the robot turns by 30° and then drives half a
-#   metre; the estimated pose controls both motions.
-# - **A robot, calibrated** uses your own scale factors. They also improve the map by odometry alone,
-#   but the wheels still slip.
-#
-# To draw the estimate alone, write `naive=None` instead of `naive=(-8.5, 0)` in the cell above. The
-# page of `slamlab live` has a checkbox for this purpose.
-#
-# The robot stops if you press *pause* or *exit*, run the cell again, or end the kernel, as long as the
-# link works.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Show a lost connection while the cell runs: unplug the USB cable of the *lidar* of
