@@ -305,7 +305,7 @@ def _():
 # `sigma[i]`² on each of two perpendicular axes and without correlation between the axes. The mean
 # of $n$ measurements has the variance `sigma[i]`²$/n$, but all measurements contain the same error
 # of the start. This part of the map's covariance remains for $n \to \infty$. It is a *lower bound*,
-# also if the robot drives on: nothing that it measures later tells where it started.
+# also if the robot drives on: no later measurement contains information about its start.
 #
 # How does a small error $(\tilde x, \tilde y, \tilde\theta)$ of the start move and turn the map? You
 # have met such a common error of all landmarks in lesson 07. Now derive it yourself.
