@@ -100,8 +100,11 @@ CALLS = {
     "09-place": FunctionCall(
         ("place",), _named_results(("line", "C", "X"), lambda n: ((2,), (2, 2), (2, 3)))
     ),
-    "09-update": FunctionCall(("update",), _named_results(("x", "P"), lambda n: ((n,), (n, n)))),
     "09-life": FunctionCall(("keep_book",), _call_keep_book),
+    "09-merge": FunctionCall(
+        ("merge",),
+        _named_results(("d2", "x", "P"), lambda n: ((), (n - 2,), (n - 2, n - 2))),
+    ),
     "09-end": FunctionCall(
         ("end_point",), _named_results(("p", "C", "X"), lambda n: ((2,), (2, 2), (2, n)))
     ),

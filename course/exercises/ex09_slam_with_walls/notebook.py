@@ -1,9 +1,9 @@
 # %% [markdown]
 # # Exercise 09 · SLAM with walls: line landmarks
 #
-# **You will be able to** write the parts of EKF-SLAM with line landmarks: initialise a wall, update with a known
-# wall, manage tracks, and compute the end of a wall with its covariance. Finally, you will map a room without
-# false walls.
+# **You will be able to** write the parts of EKF-SLAM with line landmarks: initialise a wall, manage tracks, merge
+# two landmarks that represent the same wall, and compute the end of a wall with its covariance. Finally, you will
+# map a room without false walls.
 #
 # **60 minutes. Before:** lesson [09 · SLAM with walls: line landmarks](../notebooks/09_slam_with_walls.ipynb), and
 # exercise 06 for EKF-SLAM with point landmarks.
@@ -79,52 +79,7 @@ def _():
 
 
 # %% [markdown]
-# ## 2 · Update: a known wall
-#
-# Wall `j` is measured again, by `z`. By (09.1) of the lesson the predicted measurement $h$ is
-#
-# $$ \rho' = \rho - x \cos\alpha - y \sin\alpha, \qquad \alpha' = \alpha - \theta. $$
-#
-# **Your task.** Return $x$ and $P$ after the update of the whole state. With the innovation $v = z - h$ and its
-# covariance $S = H P H^{\mathsf T} + R$,
-#
-# $$ K = P H^{\mathsf T} S^{-1}, \qquad x \leftarrow x + K v, \qquad P \leftarrow P - K S K^{\mathsf T}. $$
-#
-# The map holds at least one wall, and $P$ is positive definite. The wall may be behind the robot, and the robot
-# may head in the direction of $-x$, where $\theta$ and $\alpha$ jump from $\pi$ to $-\pi$. Angles count modulo
-# $2\pi$; you need not wrap those of the new $x$. If a wall is near, the estimated position of the robot may lie
-# on the other side of the wall. Then the predicted $\rho'$ is negative: leave it negative. The check compares
-# your `x` and `P` with the least squares estimate from the prior and the measurement, with $h$ linearised at the
-# prior. The correction of `x` may have an error of $10^{-6}$ of its largest entry, `P` of $10^{-8}$. In some cases
-# the robot is 3000 km from the origin, where finite differences have larger errors: derive $H$.
-
-
-# %%
-def update(x, P, z, j, R):
-    """Wall j was measured; returns x (n,), P (n, n).
-
-    x : (n,) state;  P : (n, n);  z : (2,) ρ' [m], α' [rad];  j : int;  R : (2, 2) covariance of z
-    """
-    ### BEGIN SOLUTION
-    at = 3 + 2 * j
-    rho, alpha = x[at : at + 2]
-    c, s = np.cos(alpha), np.sin(alpha)
-    v = z - np.array([rho - x[0] * c - x[1] * s, alpha - x[2]])
-    v[1] = wrap(v[1])
-    H = np.zeros((2, len(x)))
-    H[:, :3] = [[-c, -s, 0], [0, 0, -1]]
-    H[:, at : at + 2] = [[1, x[0] * s - x[1] * c], [0, 1]]
-    S = H @ P @ H.T + R
-    K = P @ H.T @ np.linalg.inv(S)
-    return x + K @ v, P - K @ S @ K.T
-    ### END SOLUTION
-
-
-# %%
-check("09-update")
-
-# %% [markdown]
-# ## 3 · Track management: sightings and lives
+# ## 2 · Track management: sightings and lives
 #
 # A dictionary, the book, stores for each wall how many scans have observed it (its *sightings*), and after how many
 # further misses in a row it is deleted (its *lives left*): `book[id] = (sightings, lives left)`. Each scan gives
@@ -136,19 +91,6 @@ check("09-update")
 # - A wall that is not observed loses one life. At 0 lives it is deleted from the book. If it is observed later, it
 #   is a new wall.
 # - `used` contains the walls of *this scan* that have at least `N` sightings, this scan included: the confirmed ones.
-
-# %%
-ask(
-    "ex09-lives",
-    "With `lives = 3`, a wall is observed once, missed in the next three scans, and then observed again. "
-    "**Which entry does the book contain for the wall after that?**",
-    {
-        "(2, 3): it has two sightings": "this would be the entry after two missed scans. The third miss takes the last life.",
-        "(1, 3): it is a new wall": "the third miss deletes the wall, and the book keeps nothing of a deleted wall.",
-        "(1, 1): it has lost two lives": "a wall that is observed has all its lives again.",
-    },
-    right="(1, 3): it is a new wall",
-)
 
 # %% [markdown]
 # **Your task.** Return the book after the scan, and the list of the ids used, in any order. The book and the scan
@@ -190,9 +132,9 @@ check("09-life")
 # %% [markdown]
 # ## EKF-SLAM in a corridor
 #
-# The next cell contains the rest of the filter, as in exercise 06. The error of a new wall is correlated with
-# *everything* that the error of the pose is correlated with. `place` returns $X = J_{\mathrm r} P$ for the pose
-# alone, so `add` computes $J_{\mathrm r}$ as $X P^{-1}$.
+# The next cell contains the rest of the filter, as in exercise 06, with (09.1) as the measurement model. The error of
+# a new wall is correlated with *everything* that the error of the pose is correlated with. `place` returns
+# $X = J_{\mathrm r} P$ for the pose alone, so `add` computes $J_{\mathrm r}$ as $X P^{-1}$.
 
 
 # %%
@@ -214,10 +156,25 @@ def add(x, P, z, R):
     return np.append(x, line), np.block([[P, rows.T], [rows, C]])
 
 
+def update(x, P, z, j, R):
+    """Update with the measurement z of wall j, counted from 0; returns x, P."""
+    at = 3 + 2 * j
+    rho, alpha = x[at : at + 2]
+    c, s = np.cos(alpha), np.sin(alpha)
+    v = z - np.array([rho - x[0] * c - x[1] * s, alpha - x[2]])
+    v[1] = wrap(v[1])
+    H = np.zeros((2, len(x)))
+    H[:, :3] = [[-c, -s, 0], [0, 0, -1]]
+    H[:, at : at + 2] = [[1, x[0] * s - x[1] * c], [0, 1]]
+    S = H @ P @ H.T + R
+    K = P @ H.T @ np.linalg.inv(S)
+    return x + K @ v, P - K @ S @ K.T
+
+
 # %%
 ask(
     "ex09-across",
-    "With your `place` and `update` a robot drives ten metres along a corridor. In every scan it measures the "
+    "With your `place` a robot drives ten metres along a corridor. In every scan it measures the "
     "two walls, and nothing else. **Which of these three $\\sigma$ grow during the run?** That of its position "
     "along the corridor (in the world frame), that of its position across the corridor (in the world frame), and "
     "that of its distance from the left wall.",
@@ -260,6 +217,97 @@ def _():
 # For the position *across* the corridor $\sigma$ should grow, too. The direction of the corridor has the error of
 # the heading from which the walls were initialised, and the effect of this error grows with the distance from the
 # start.
+
+# %% [markdown]
+# ## 3 · Landmark merging: one wall, two landmarks
+#
+# Walls `i` and `j` of the map may be one thin partition: two pieces of it, or its two sides. The filter has
+# initialised each of them with the normal pointing away from the robot, as in task 1. So the two normals have nearly
+# the same direction, or nearly opposite directions: the angle between them is below 30° or above 150°. The partition
+# is so thin that its two sides are the same line.
+#
+# **Your task.** Express the line of wall `j` with the normal that is nearly that of wall `i`. Return three results:
+#
+# - `d2`, the squared Mahalanobis distance of the two lines by (09.4) of the lesson. The caller merges if `d2` is less
+#   than 9.21.
+# - `x` and `P` of the whole state after the merge by (09.3), whatever `d2` is. The two entries of wall `j` are
+#   removed, all others keep their order, and wall `i` keeps the direction of its normal.
+#
+# The $H$ printed in (09.3) applies if the two normals have nearly the same direction. You find the other case by
+# writing the difference of the two lines as a function of the state. `i` and `j` differ, and either may be the larger.
+# $P$ is positive definite. Angles count modulo $2\pi$; you need not wrap those of the new `x`.
+
+
+# %%
+def merge(x, P, i, j):
+    """Walls i and j are the same line; returns d2, x (n - 2,), P (n - 2, n - 2).
+
+    x : (n,) state;  P : (n, n);  i, j : int, the wall that remains, and the wall that is removed
+    """
+    ### BEGIN SOLUTION
+    kept, gone = 3 + 2 * i, 3 + 2 * j
+    turn = wrap(x[gone + 1] - x[kept + 1])
+    side = 1 if abs(turn) < np.pi / 2 else -1
+    H = np.zeros((2, len(x)))
+    H[:, kept : kept + 2] = -np.eye(2)
+    H[:, gone : gone + 2] = [[side, 0], [0, 1]]
+    apart = np.array([side * x[gone] - x[kept], turn if side == 1 else wrap(turn + np.pi)])
+    S = H @ P @ H.T
+    d2 = apart @ np.linalg.solve(S, apart)
+    K = P @ H.T @ np.linalg.inv(S)
+    x, P = x - K @ apart, P - K @ S @ K.T
+    rest = np.delete(np.arange(len(x)), [gone, gone + 1])
+    return d2, x[rest], P[np.ix_(rest, rest)]
+    ### END SOLUTION
+
+
+# %%
+check("09-merge")
+
+# %%
+ask(
+    "ex09-niche",
+    "The position of a robot has $\\sigma$ = 20 cm, and its heading is nearly exact. One scan contains two parallel "
+    "lines, 10 cm apart: a wall, and the back of a niche in it. Their normals have the same direction, and "
+    "$\\rho'$ has $\\sigma$ = 1 cm. So each $\\rho$ in the map has $\\sigma$ = 20 cm. **What does the gate say?**",
+    {
+        "one wall: 10 cm are half of σ": "σ = 20 cm is that of each ρ. The gate tests the difference of both.",
+        "one wall: the difference has a σ of 28 cm": "this would be σ if the errors of the two walls were independent. But "
+        "both contain the same error of the position.",
+        "two walls: the difference has a σ of 1.4 cm": "both walls contain the same error of the position, which cancels in the "
+        "difference. The errors of the two measurements remain.",
+    },
+    right="two walls: the difference has a σ of 1.4 cm",
+)
+
+# %% [markdown] answers="ex09-niche"
+# The next cell initialises two walls that are 10 cm apart, in two ways. In the first run one scan contains both. In
+# the second run the robot measures a wall, drives to its other side, and measures it there.
+
+
+# %% answers="ex09-niche"
+@attempt
+def _():
+    R, start = np.diag([0.01, 0.005]) ** 2, np.diag([0.2, 0.2, 0.005]) ** 2
+    for name, drives, z in (
+        ("a niche, in one scan", [], [2.1, 0.0]),
+        ("both sides of a wall", [*[[1.0, 0.0]] * 4, [0.0, np.pi]], [2.1, 0.0]),
+    ):
+        x, P = add(np.zeros(3), start, np.array([2.0, 0.0]), R)
+        for u in drives:
+            x, P = predict(x, P, u, np.diag([0.1, 0.002]) ** 2)
+        x, P = add(x, P, np.array(z), R)
+        sigmas = 100 * np.sqrt(np.diag(P)[[3, 5]])
+        d2, _, merged = merge(x, P, 0, 1)
+        print(f"{name}: σ of ρ: {sigmas[0]:.0f} and {sigmas[1]:.0f} cm, d² = {d2:.2f};", end=" ")
+        print(f"σ of x: {100 * np.sqrt(P[0, 0]):.0f} → {100 * np.sqrt(merged[0, 0]):.0f} cm")
+
+
+# %% [markdown] answers="ex09-niche"
+# **See:** In both runs the lines are 10 cm apart, and $\sigma$ of each $\rho$ is at least 20 cm. For the niche d²
+# should be about 50, which is far beyond the gate: a merge would be wrong. For the two sides of the wall d² should be
+# below 1. After their merge $\sigma$ of the robot's $x$ should be about that of the first $\rho$ again, because the
+# filter has learned how far the robot has driven.
 
 # %% [markdown]
 # ## 4 · The end of a wall
@@ -373,7 +421,7 @@ ask(
 )
 
 # %% [markdown]
-# By the rules of task 3, what happens to the walls that the robot has left behind?
+# By the rules of task 2, what happens to the walls that the robot has left behind?
 #
 # **Your task.** Return the walls of the room, estimated from the whole run. The first scan is taken at the start,
 # before the first control input. You may use all functions above.
@@ -393,8 +441,8 @@ ask(
 #
 # Together with 0.5 points for unchanged arguments, these are the 6 points of the task. For step 1, the check also
 # computes ten maps from runs without clutter and without temporary objects: at least five of them must have at
-# most 3 faults. The lesson's rule reaches step 1 only. If your `place` or
-# `update` is wrong, the check uses a correct one in its place. The check stops after 10 s.
+# most 3 faults. The lesson's rule reaches step 1 only. If your `place` is
+# wrong, the check uses a correct one in its place. The check stops after 10 s.
 
 
 # %%

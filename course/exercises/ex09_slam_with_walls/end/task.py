@@ -6,8 +6,8 @@ from classroom.exercises.correctness_laws import equals
 from classroom.exercises.task import Probe, Task
 from course.exercises.ex06_ekf_slam.beliefs import T, either_sign
 from course.exercises.ex09_slam_with_walls.calls import CALLS
-from course.exercises.ex09_slam_with_walls.update.task import FAR_OFF, beliefs, carried_off
-from course.exercises.surveyed import EXACT, differences, vague
+from course.exercises.ex09_slam_with_walls.merge.task import ANGLES, beliefs
+from course.exercises.surveyed import EXACT, FAR, differences, vague
 from slamlab.geometry import wrap
 
 
@@ -37,6 +37,17 @@ def _behind(rng):
     c, s = (f(found["x"][rows, 4 + 2 * found["j"]]) for f in (np.cos, np.sin))
     found["x"][rows, 3 + 2 * found["j"]] = found["x"][:, 0] * c + found["x"][:, 1] * s + 2
     return found
+
+
+def _carried_off(inputs):
+    """Turn robot and walls so that the normal of wall j is the x-axis, and move them along it."""
+    x, far = inputs["x"].copy(), 3 * FAR
+    along = x[np.arange(len(x)), 4 + 2 * inputs["j"]]
+    c, s = np.cos(along), np.sin(along)
+    x[:, :2] = np.column_stack([far + c * x[:, 0] + s * x[:, 1], c * x[:, 1] - s * x[:, 0]])
+    x[:, ANGLES] = wrap(x[:, ANGLES] - along[:, None])
+    x[:, 3::2] += far * np.cos(x[:, 4::2])
+    return inputs | {"x": x}
 
 
 def _geometry(inputs):
@@ -94,6 +105,8 @@ def _promised(inputs):
     return ((n * beam).sum(axis=1) > np.cos(np.radians(80))) & (r > 0)
 
 
+FAR_OFF = "a robot 3000 km from the origin"
+
 END_POINT = Task(
     id="09-end",
     title="The end of a wall",
@@ -108,7 +121,7 @@ END_POINT = Task(
         Probe("a map of six walls", lambda rng: ends(rng, 6, 6)),
         Probe("a beam whose direction is known exactly", _changed(sigma=0.0)),
         Probe("uncorrelated errors", _changed(P=np.eye(7))),
-        Probe(FAR_OFF, lambda rng: vague(carried_off(ends(rng, 6, 3)), ["P"], ["sigma"])),
+        Probe(FAR_OFF, lambda rng: vague(_carried_off(ends(rng, 6, 3)), ["P"], ["sigma"])),
     ),
     diagnoses=(differences(lambda inputs: {name: want(inputs)[name] for name in "CX"}, FAR_OFF),),
     parts=_parts,

@@ -186,7 +186,7 @@ GHOSTS = Task(
     may_round=False,
     laws=STEPS,
     diagnoses=MISTAKES,
-    needs=("09-place", "09-update"),
+    needs=("09-place",),
     begins=(
         "The first scan contains three lines, and the map is empty. What do you do "
         "with each of them?",
