@@ -411,17 +411,19 @@ check("06-consistent")
 #
 # | row | your distance from the reference filter | mean NEES of the pose | points |
 # | --- | --- | --- | --- |
-# | 1 | at most $0.75\,e$ | not judged | 1 |
-# | 2 | at most $0.5\,e$ | not judged | 1 |
-# | 3 | at most $0.5\,e$ | between 0.5 and 15 | 1 |
-# | 4 | at most $0.4\,e$ | between 0.5 and 7 | 1 |
+# | 1 | at most $0.4\,e$ | not judged | 0.5 |
+# | 2 | at most $0.27\,e$ | not judged | 1 |
+# | 3 | at most $0.27\,e$ | between 0.5 and 15 | 1 |
+# | 4 | at most $0.27\,e$ | between 0.5 and 7 | 1.5 |
 #
 # Each row includes the rows above it, and the points of all rows that you reach are added. Leaving
-# the arguments unchanged is worth another 0.5 points. `slam_step` itself reaches row 1 at most. For
-# row 4, your filter must also agree with batch least squares, as in task 3, in twenty runs of 8
-# steps without outliers, and in twenty such runs with a five times larger σ of the measurements
-# (`R` says so): the variances by your mean `P` are 0.75 to 1.33 times those of least squares in
-# every direction, and the rms difference is at most 0.63 σ. The check stops after 10 s.
+# the arguments unchanged is worth another 0.5 points. `slam_step` reaches no row. For rows 3 and 4,
+# `x` and `P` must also agree with batch least squares, as in task 3, in twenty runs of 8 steps
+# without outliers, and in twenty such runs with a five times larger σ of the measurements (`R` says
+# so). In every direction, the variances by your mean `P` are 0.4 to 2.5 times (row 3) and 0.92 to
+# 1.42 times (row 4) those of least squares; the rms difference of `x` is at most 1 σ and 0.77 σ. So
+# your filter may reject one correct measurement in a hundred, but not one in twenty. The check stops
+# after 10 s.
 
 
 # %%
