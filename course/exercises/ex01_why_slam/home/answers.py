@@ -3,6 +3,7 @@ def home(start, steps, docked):
     n = len(steps)
     W = np.concatenate([np.full(n, 0.01**2), np.full(n, 0.015**2), [0.08**2]])
     x = np.zeros(2 * n + 1)
+    x[-1] = abs(np.sum(steps[: docked[0], 2])) / (2 * np.pi) - 1
 
     def told_by(x):
         mended = steps.copy()

@@ -39,6 +39,25 @@ def route(inputs):
     return chain(inputs["start"][0], inputs["steps"].mean(axis=0))
 
 
+def closed(inputs):
+    """Positions x + iy (d, n) after each step, with one factor for a run and both gaps of a lap
+    distributed evenly over its steps."""
+    steps, docked = inputs["steps"], inputs["docked"][0]
+    laps = list(pairwise([0, *docked]))
+    told = np.stack([steps[:, a:b, 2].sum(axis=1) for a, b in laps])
+    turns = steps[..., 2] / (np.abs(told).mean(axis=0) / (2 * np.pi))[:, None]
+    found = []
+    for a, b in [*laps, (docked[-1], steps.shape[1])]:
+        turn, shares = turns[:, a:b], np.arange(1, b - a + 1) / (b - a)
+        total = turn.sum(axis=1, keepdims=True)
+        if b <= docked[-1]:
+            turn = turn + (2 * np.pi * np.sign(total) - total) / (b - a)
+        headings = inputs["start"][:, 2:] + np.cumsum(turn, axis=1) - turn
+        z = np.cumsum(steps[:, a:b, 0] * np.exp(1j * headings), axis=1)
+        found.append(z - shares * z[:, -1:] if b <= docked[-1] else z)
+    return np.concatenate(found, axis=1) + inputs["start"][:, :1] + 1j * inputs["start"][:, 1:2]
+
+
 def _house(rng, side):
     """Corners x + iy of a lap that begins and ends in a wall."""
     a, b = rng.uniform(4, 6, 2)

@@ -23,27 +23,6 @@ def miss(poses, length_error, heading_error):
         var_y += (heading_error * (x_end - x)) ** 2
     return math.sqrt(var_x), math.sqrt(var_y)
 
-# %% way: differences
-def miss(poses, length_error, heading_error):
-    z = poses[:, 0] + 1j * poses[:, 1]
-    steps, small = np.diff(z), 1e-6
-
-    def end(longer, turned):
-        bent = np.cumsum(turned) - turned
-        return np.sum(steps * (1 + longer) * np.exp(1j * bent))
-
-    none = np.zeros(len(steps))
-    total = np.zeros(2)
-    for k in range(len(steps)):
-        one = none.copy()
-        one[k] = small
-        for error, ends in (
-            (length_error, end(one, none) - end(-one, none)),
-            (heading_error, end(none, one) - end(none, -one)),
-        ):
-            total += (error * np.array([ends.real, ends.imag]) / (2 * small)) ** 2
-    return np.sqrt(total)
-
 # %% way: one Jacobian
 def miss(poses, length_error, heading_error):
     n = len(poses) - 1
@@ -160,3 +139,24 @@ def miss(poses, length_error, heading_error):
                      (length_error * dy) ** 2 + (heading_error * ax) ** 2])
     rows = np.array(rows)
     return np.sqrt([rows[:, 0].sum(), rows[:, 1].sum()])
+
+# %% wrong: differences of the end, for each error
+def miss(poses, length_error, heading_error):
+    z = poses[:, 0] + 1j * poses[:, 1]
+    steps, small = np.diff(z), 1e-6
+
+    def end(longer, turned):
+        bent = np.cumsum(turned) - turned
+        return np.sum(steps * (1 + longer) * np.exp(1j * bent))
+
+    none = np.zeros(len(steps))
+    total = np.zeros(2)
+    for k in range(len(steps)):
+        one = none.copy()
+        one[k] = small
+        for error, ends in (
+            (length_error, end(one, none) - end(-one, none)),
+            (heading_error, end(none, one) - end(none, -one)),
+        ):
+            total += (error * np.array([ends.real, ends.imag]) / (2 * small)) ** 2
+    return np.sqrt(total)

@@ -55,6 +55,15 @@ def _far(rng):
     return inputs
 
 
+def _long(rng):
+    """Runs along the x-axis so long that the rounding of x exceeds the levers in y."""
+    # a formula multiplies each lever by its error; a difference of two ends loses it, at any step
+    poses = np.zeros((3, STEPS + 1, 3))
+    poses[:, 1:, 0] = np.cumsum(rng.integers(1e14, 2e14, (3, STEPS)), axis=1)
+    poses[..., 1] = rng.uniform(-3, 3, (3, STEPS + 1))
+    return _drives(rng, 3) | {"poses": poses, "length_error": np.zeros(3)}
+
+
 def _levers(inputs):
     """Derivative of the end by each heading error (k, n, 2)."""
     p = inputs["poses"][..., :2]
@@ -73,8 +82,14 @@ def _on_the_way(inputs):
     return {"from each pose to the end": inputs["poses"][:, -1:, :2] - inputs["poses"][:, 1:, :2]}
 
 
-def _law(name, points, says, asks, **more):
-    return equals(name, points, says, _want, tolerance=NEAR, asks=asks, step=_on_the_way, **more)
+def _by_length(inputs):
+    moved = inputs["length_error"][:, None, None] * np.diff(inputs["poses"][..., :2], axis=1)
+    return {"how far one σ of each length moves the end": moved}
+
+
+def _law(name, points, says, asks, step=_on_the_way, **more):
+    each = {"result": [0, 1]}
+    return equals(name, points, says, _want, each, tolerance=NEAR, asks=asks, step=step, **more)
 
 
 MISS = Task(
@@ -90,6 +105,7 @@ MISS = Task(
             "the standard deviations in x and in y are right for length errors alone",
             "Suppose that a step along +x is 2 % too long. How far does this move the end in x, "
             "and in y?",
+            step=_by_length,
             main=False,
         ),
         _law(
@@ -115,10 +131,12 @@ MISS = Task(
         Probe("runs along the axes", _straight, ("both",)),
         Probe("runs with pauses", _rests, ("both",)),
         Probe("runs far from the origin", _far, ("both",)),
+        Probe("runs of 10¹⁵ m along the x-axis", _long, ("headings", "both")),
         Probe("a start and no step", lambda rng: _drives(rng, 2, 0), ("both",)),
         Probe("a single step", lambda rng: _drives(rng, 2, 1), ("both",)),
         Probe("forty steps", lambda rng: _drives(rng, 2, 40), ("both",)),
     ),
+    parts=lambda i, o: {"result": np.arcsinh(o["result"])},  # the long runs would hide all others
     begins=(
         "A single step along +x is 2 % too long. How far does it move the end in x, and in y?",
         "A single heading error occurs at pose k. Which part of the trajectory does it turn?",
