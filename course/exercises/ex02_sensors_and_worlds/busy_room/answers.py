@@ -112,7 +112,7 @@ def busy_fit(scans, step):
         person = b * step / r * (q <= r + step / 2)
         w = wall / (wall + person + 1e-12)
         count = w.sum(axis=0)
-        r = (w * q).sum(axis=0) / np.maximum(count, 1e-9)
+        r = np.where(count > 0.1, (w * q).sum(axis=0) / np.maximum(count, 0.1), r)
         b = 1 - w.mean()
         # with the rounding's variance taken off, and one mean for each beam
         free = np.maximum(count - 1, 0)

@@ -34,6 +34,13 @@ def each(inputs, outputs):
             yield there.sum(), outputs["ranges"][k, 0][kept] / true[kept] - 1, error, p
 
 
+def normalised(inputs, outputs, call):
+    """Errors (n, beams) in σ; NaN where there is no reading, or no noise."""
+    true, sigma = inputs["ranges"], inputs["error"][:, None]
+    back = (outputs["state"][:, call] == FINITE) & (sigma > 0)
+    return np.where(back, (outputs["ranges"][:, call] / true - 1) / sigma, np.nan)
+
+
 def lost_beams(inputs, outputs):
     """Per sensor (NOISY_CALLS, beams) whether a possible reading was lost; and p."""
     for k, p in enumerate(inputs["dropouts"]):

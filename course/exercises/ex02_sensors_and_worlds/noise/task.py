@@ -11,6 +11,7 @@ from course.exercises.ex02_sensors_and_worlds.noise.readings import (
     NOISY_CALLS,
     each,
     lost_beams,
+    normalised,
     same,
     sensors,
     surprise,
@@ -18,6 +19,7 @@ from course.exercises.ex02_sensors_and_worlds.noise.readings import (
 
 BAND = 6.0  # standard deviations
 NEVER = 1e-9  # less is no chance
+BEYOND = (1, 0.3173), (2, 0.0455), (2.6, 0.00932)  # σ, and how many normal errors are larger
 ROUNDING = 1e-12
 
 
@@ -48,7 +50,14 @@ def _spread_right(inputs, outputs):
     def off(z, error):
         return abs(_rms(z) - error) * np.sqrt(2 * len(z))
 
-    return _bounded(inputs, outputs, off)
+    z = normalised(inputs, outputs, 0)
+    normal = all(_likely((np.abs(z) > t).sum(), np.isfinite(z).sum(), p, 4) for t, p in BEYOND)
+    return _bounded(inputs, outputs, off) and normal and _unrelated(z[:, 1:], z[:, :-1])
+
+
+def _unrelated(a, b):
+    both = (a * b)[np.isfinite(a * b)]
+    return abs(both.sum()) <= BAND * np.sqrt(both.size) + 20
 
 
 def _told(inputs, outputs, off):
@@ -67,13 +76,20 @@ def _why_average(inputs, outputs):
 
 
 def _why_spread(inputs, outputs):
-    return _told(
+    told = _told(
         inputs, outputs, lambda z, error: abs(_rms(z) / error - 1) if error else _rms(z) > 0
+    )
+    z = normalised(inputs, outputs, 0)
+    related, z = np.nanmean(z[:, 1:] * z[:, :-1]), z[np.isfinite(z)]
+    beyond = ", ".join(f"{np.mean(np.abs(z) > t):.3f} ({p:.3f})" for t, p in BEYOND)
+    return (
+        f"{told}; fractions beyond 1, 2 and 2.6 σ, in brackets those of the normal distribution: "
+        f"{beyond}; correlation of neighbouring beams {related:.2g}"
     )
 
 
-def _likely(count, n, p):
-    return abs(count - n * p) <= BAND * np.sqrt(n * p * (1 - p))
+def _likely(count, n, p, more=0):
+    return abs(count - n * p) <= BAND * np.sqrt(n * p * (1 - p)) + more
 
 
 def _lost_by_chance(inputs, outputs):
@@ -116,12 +132,15 @@ def _why_filled(inputs, outputs):
 
 
 def _seeded(inputs, outputs):
-    return same(outputs, 0, 1) and not same(outputs, 0, 2)
+    two = (normalised(inputs, outputs, call) for call in (0, 2))
+    return same(outputs, 0, 1) and not same(outputs, 0, 2) and _unrelated(*two)
 
 
 def _why_seeded(inputs, outputs):
     if not same(outputs, 0, 1):
         return "a second call with the same seed returns another scan"
+    if not same(outputs, 0, 2):
+        return "a call with another seed gives noise that is correlated with the first"
     return "a call with another seed returns the same scan"
 
 
@@ -172,7 +191,8 @@ NOISE = Task(
         Law(
             "spread",
             2,
-            "the standard deviation of the noise is error · r, for near and for far walls",
+            "the noise is normally distributed with the standard deviation error · r, for near and "
+            "for far walls, and independent for each beam",
             _spread_right,
             why=_why_spread,
             asks="A standard normal number has the standard deviation 1. By which number do you "
