@@ -869,6 +869,7 @@ for beams in (100, 400, 1600):
 # even with grown lines?
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
+# recall and false lines in five worlds
 judged = {
     name: [extraction.evaluate_world(worlds.by_name(name), r, 12) for r in (THESIS, None)]
     for name in ("situation-1", "situation-2", "corridor", "table-legs", "room")
@@ -934,7 +935,7 @@ views.show(
 # pieces. Here are the differences from one revolution to the next:
 
 
-# %% slideshow={"slide_type": "fragment"} tags=["folded"]
+# %% slideshow={"slide_type": "subslide"} tags=["folded"]
 def repeated(turns, share):
     """Lines a turn, and the squared distances of lines from the same lines one turn later."""
     sensor, d2 = replace(RPLIDAR_A2.model, range_error=share), []
