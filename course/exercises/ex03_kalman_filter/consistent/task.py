@@ -37,6 +37,7 @@ def _innovations(rng):
     right = (np.abs(nis - 1) < 0.09) & (np.abs(follows) < 0.06)
     clear = (np.abs(np.log(nis)) > 0.3) & (np.abs(follows) > 0.15)
     clear &= (_which(nis, follows) == wrong).all(axis=1)
+    clear &= (np.mean(vs[:, 1:] * vs[:, :-1] > 0, axis=1) > 0.5) == (follows > 0)
     usable = np.where(wrong.any(axis=1), clear, right).reshape(len(WRONG), DRAWN)
     kept = [DRAWN * k + np.flatnonzero(of)[:2] for k, of in enumerate(usable)]
     chosen = rng.permutation(np.concatenate(kept))
