@@ -401,10 +401,10 @@ attempt(lambda: show_drive(linearised, "linearised, 95 %"))
 #
 # | row | required | points |
 # | --- | --- | --- |
-# | 1 | median loss of each of the six sets at most 3 nats | 1 |
-# | 2 | median loss of each of the six sets at most 0.1 nat | 1 |
+# | 1 | median loss of each of the six sets at most 3 nats | 0.5 |
+# | 2 | median loss of each of the six sets at most 0.1 nat | 0.5 |
 # | 3 | median loss of each of the six sets at most 0.01 nat | 1 |
-# | 4 | loss of *every* motion of all sets at most 0.00001 nat | 1 |
+# | 4 | loss of *every* motion of all sets at most 0.00001 nat | 2 |
 #
 # Each row includes the rows above it, and the points of all rows that you reach are added. Leaving
 # the arguments unchanged is worth another 0.5 points. For comparison: the median loss of the

@@ -76,17 +76,6 @@ def unsure_drive(x, P, u, C):
     S[2, 2] = s2 + C[1, 1]
     return np.array([*(x[:2] + d * k * e), x[2] + u[1]]), S
 
-# %% right: 100 000 samples, headings never wrapped
-def unsure_drive(x, P, u, C):
-    rng = np.random.default_rng(1)
-    X = rng.multivariate_normal(x, P, 100_000)
-    D = rng.multivariate_normal(u, C, 100_000)
-    ends = X.copy()
-    ends[:, 0] += D[:, 0] * np.cos(X[:, 2])
-    ends[:, 1] += D[:, 0] * np.sin(X[:, 2])
-    ends[:, 2] += D[:, 1]
-    return ends.mean(axis=0), np.cov(ends.T)
-
 # %% right: Gauss-Hermite grid in five dimensions
 def unsure_drive(x, P, u, C):
     nodes, w = np.polynomial.hermite_e.hermegauss(7)

@@ -84,7 +84,7 @@ def _step(inputs):
     return {"mean": ends(inputs)[0]}
 
 
-def _half(name, limit, asks):
+def _half(name, points, limit, asks):
     """A law: the loss of half of the inputs is at most the limit [nat]."""
 
     def holds(inputs, outputs):
@@ -92,7 +92,7 @@ def _half(name, limit, asks):
         return (nats <= limit) | (np.median(nats) <= limit)
 
     says = f"the median loss of each set of motions is at most {limit:g} nat"
-    return Law(name, 1, says, holds, why=_why, asks=asks, step=_step)
+    return Law(name, points, says, holds, why=_why, asks=asks, step=_step)
 
 
 def _shapes(inputs):
@@ -122,18 +122,21 @@ TASK = Task(
     laws=(
         _half(
             "one-nat",
+            0.5,
             LIMITS[0],
             "Some robots drive more to the left than estimated, and some more to the right. Is "
             "the mean of their end points nearer to the start than f(x, u), or farther from it?",
         ),
         _half(
             "tenth",
+            0.5,
             LIMITS[1],
             "What does your method use of cos θ: its value, its derivatives, or its values at many "
             "headings?",
         ),
         _half(
             "hundredth",
+            1,
             LIMITS[2],
             "If you draw samples: how does the error of a covariance decrease with the number of "
             "samples? If you choose points: do you have enough points at headings far from the "
@@ -141,7 +144,7 @@ TASK = Task(
         ),
         Law(
             "every-drive",
-            1,
+            2,
             f"in every motion the loss is at most {EXACTLY:g} nat",
             lambda inputs, outputs: lost(inputs, outputs) <= EXACTLY,
             why=_why,
