@@ -41,7 +41,7 @@ def corrections(name, points, says, want, **more):
     def change(inputs, x):
         return {"x": x - inputs["x"]}
 
-    law = equals(name, points, says, lambda i: change(i, want(i)["x"]), tolerance=1e-6, **more)
+    law = equals(name, points, says, lambda i: change(i, want(i)["x"]), tolerance=1e-7, **more)
     return replace(
         law,
         holds=lambda i, o: law.holds(i, o | change(i, o["x"])),
