@@ -94,18 +94,20 @@ UNWRAP = Task(
             _wanted,
             asks="How many values does a byte have, and how many counts are there from 127 to "
             "−128?",
+            alone=False,
             step=_between,
         ),
         Law(
             "shorter way",
             2,
             "each step between two readings is at most 127 counts, forwards or backwards",
-            lambda i, o: (np.abs(np.diff(o["result"], axis=1)) < ROUND / 2).all(axis=1),
+            lambda i, o: (
+                (np.abs(np.diff(o["result"], axis=1)) < ROUND / 2).all(axis=1) & _ring(i, o)
+            ),
             _wanted,
             asks="The step between two bytes is known modulo 256. Which two values can it have, "
             "one forwards and one backwards? Which of them can the robot have driven?",
             step=_between,
-            alone=False,
         ),
     ),
     probes=(
