@@ -99,12 +99,13 @@ def _needed_holds(inputs, outputs):
 
 def _pairs(inputs):
     d = differences(inputs)[0]
-    return {"number of worlds of both": len(d), "mean of ln(error of A / error of B)": d.mean()}
+    found = {"number of worlds of both": len(d), "mean of d": d.mean()}
+    return found | {"standard deviation of d": d.std(ddof=1)}
 
 
 def _mean(inputs):
     d, half = differences(inputs), _half(inputs)
-    return {"mean of ln(error of A / error of B)": d.mean(axis=1), "its interval, ±": half}
+    return {"mean of d": d.mean(axis=1), "its interval, ±": half}
 
 
 def _halves(inputs):
