@@ -135,6 +135,9 @@ PRESENTATIONS = {
     "15-step": CasePresentation(
         "step is given poses, and edges (i, j, z, Λ) from the rows of the other arrays:"
     ),
+    "15-gate": CasePresentation(
+        "gate_loop is given poses, H, the loop (*pair, z, information), and gates:"
+    ),
     "15-liars": CasePresentation(
         "close_loops is given poses, edges (k, k + 1, measured[k], information[k]), and loops "
         "from the rows of the other arrays:"

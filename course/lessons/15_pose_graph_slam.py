@@ -1412,8 +1412,8 @@ views.show(
 # The sections below this one are optional.
 #
 # **Exercise:** [15 · Pose-graph SLAM: closing the loop](../exercises/ex15_pose_graph_slam.ipynb). You
-# write the residual of an edge, its Jacobians and a Gauss–Newton step, derive an edge that measures
-# only a distance, and compute a map from loops of which some are false.
+# write the Jacobians of an edge and a Gauss–Newton step, derive an edge that measures only a distance,
+# gate a loop closure by (15.8), and compute a map from loops of which some are false.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Deeper: the gradient of χ² with sympy

@@ -20,6 +20,7 @@ ARGUMENT_NAMES = {
     "11-kidnapped": _SAMPLES,
     "12-relocalise": ["start", "motions", "sights", "posts"],
     "15-step": ["poses", "edges"],
+    "15-gate": ["poses", "H", "loop", "gates"],
     "15-liars": ["poses", "edges", "loops"],
 }
 """Argument names in the notebook, by task id, if the inputs have other names."""

@@ -11,17 +11,25 @@ from classroom.exercises.function_calls import (
 
 
 def _call_jacobians(functions, inputs):
-    return _named_results(functions["jacobians"], inputs, "jacobians", {"A": (3, 3), "B": (3, 3)})
+    rows = argument_rows(inputs)
+    return _named_results(functions, "jacobians", rows, {"A": (3, 3), "B": (3, 3)})
 
 
 def _call_range_edge(functions, inputs):
-    return _named_results(
-        functions["range_edge"], inputs, "range_edge", {"e": (), "A": (3,), "B": (3,)}
-    )
+    rows = argument_rows(inputs)
+    return _named_results(functions, "range_edge", rows, {"e": (), "A": (3,), "B": (3,)})
 
 
-def _named_results(function, inputs, name, shapes):
-    found = [function(*row) for row in argument_rows(inputs)]
+def _call_gate_loop(functions, inputs):
+    rows = [
+        (poses, H, _edge_list([pair], [z], [information])[0], gates)
+        for poses, H, pair, z, information, gates in argument_rows(inputs)
+    ]
+    return _named_results(functions, "gate_loop", rows, {"d2": (), "accepted": ()})
+
+
+def _named_results(functions, name, rows, shapes):
+    found = [functions[name](*row) for row in rows]
     if any(not isinstance(values, tuple | list) or len(values) != len(shapes) for values in found):
         raise StudentError("malformed", f"{name} must end with: return {', '.join(shapes)}")
     return {
@@ -57,9 +65,9 @@ def _edge_list(pairs, measured, information):
 
 
 CALLS = {
-    "15-error": FunctionCall(("error",)),
     "15-jacobians": FunctionCall(("jacobians",), _call_jacobians),
     "15-step": FunctionCall(("step",), _call_step),
     "15-range": FunctionCall(("range_edge",), _call_range_edge),
+    "15-gate": FunctionCall(("gate_loop",), _call_gate_loop),
     "15-liars": FunctionCall(("close_loops",), _call_close_loops),
 }

@@ -1,11 +1,11 @@
 """Exercise 15, pose graphs.
 
-``edges``, ``graphs``, ``laps``: inputs; ``error``, ``jacobians``, ``step``, ``range``, ``liars``: a
+``edges``, ``graphs``, ``laps``: inputs; ``jacobians``, ``step``, ``range``, ``gate``, ``liars``: a
 task each.
 """
 
 from classroom.exercises.exercise import Exercise
-from course.exercises.ex15_pose_graph_slam.error.task import ERROR
+from course.exercises.ex15_pose_graph_slam.gate.task import GATE
 from course.exercises.ex15_pose_graph_slam.jacobians.task import JACOBIANS
 from course.exercises.ex15_pose_graph_slam.liars.task import LIARS
 from course.exercises.ex15_pose_graph_slam.range.task import RADIO
@@ -15,7 +15,7 @@ EXERCISE = Exercise(
     id="15",
     notebook="15_pose_graph_slam",
     title="Pose-graph SLAM: closing the loop",
-    tasks=(ERROR, JACOBIANS, STEP, RADIO, LIARS),
+    tasks=(JACOBIANS, STEP, RADIO, GATE, LIARS),
     calls="course.exercises.ex15_pose_graph_slam.calls",
     allows=("slamlab.geometry", "slamlab.layers", "slamlab.views", "slamlab.simulation.worlds"),
     answers=(

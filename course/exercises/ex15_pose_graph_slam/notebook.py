@@ -1,9 +1,9 @@
 # %% [markdown]
 # # Exercise 15 · Pose-graph SLAM: closing the loop
 #
-# **You will be able to** write the back end of a pose-graph SLAM: the residual of an edge, its
-# Jacobians, and a Gauss–Newton step. You will then derive an edge that measures only a distance,
-# and map a building from data with false loop closures.
+# **You will be able to** write the back end of a pose-graph SLAM: the Jacobians of an edge, and a
+# Gauss–Newton step. You will then derive an edge that measures only a distance, decide whether a
+# loop closure may be trusted, and map a building from data with false loop closures.
 #
 # **60 minutes. Before:** lesson [15 · Pose-graph SLAM: closing the loop](../notebooks/15_pose_graph_slam.ipynb).
 #
@@ -27,47 +27,24 @@ from slamlab.geometry import between, compose, wrap
 from slamlab.layers import Poses, Segments
 
 # %% [markdown]
-# ## 1 · The residual of an edge
+# ## 1 · The Jacobians of an edge
 #
 # An edge $(i, j, z)$ measures pose $j$ in the frame of pose $i$. From pose $i$ and $z$, the
 # predicted pose $j$ is $x_i \oplus z$. The **residual** $e$ (error) is pose $j$ in the frame of the
-# predicted pose (15.2):
+# predicted pose (15.2), and its last component is wrapped:
 #
 # $$e = \ominus z \oplus (\ominus x_i \oplus x_j) = \begin{bmatrix} \mathrm{Rot}(\theta_z)^{\mathsf T} \left(
 # \mathrm{Rot}(\theta_i)^{\mathsf T} (p_j - p_i) - p_z \right) \\ \theta_j - \theta_i - \theta_z \end{bmatrix},
 # \qquad p = \begin{bmatrix} x \\ y \end{bmatrix}.$$
-#
-# The last component is an angle and must lie between $-\pi$ and $\pi$. For example, a difference of
-# 350° is an error of −10°. `wrap` brings an angle into this interval.
-#
-# **Your task.** Return $e$. An edge may connect any two poses, also two poses at the same position,
-# and $z$ may be zero.
 
 
 # %% name="error"
 def error(x_i, x_j, z):
-    """The residual of an edge: pose j in the frame of the pose predicted from pose i and z.
+    """The residual of an edge (3,) [m, m, rad]; x_i, x_j, z : (3,) poses of real numbers."""
+    return between(z, between(x_i, x_j))
 
-    x_i, x_j : (3,) poses;  z : (3,) measured pose j in the frame of pose i [m, m, rad]
-    returns e (3,) [m, m, rad], the angle wrapped
-    """
-    ### BEGIN SOLUTION
-
-    def back(angle, vector):
-        c, s = np.cos(angle), np.sin(angle)
-        return np.array([c * vector[0] + s * vector[1], c * vector[1] - s * vector[0]])
-
-    position = back(z[2], back(x_i[2], x_j[:2] - x_i[:2]) - z[:2])
-    return np.array([*position, wrap(x_j[2] - x_i[2] - z[2])])
-    ### END SOLUTION
-
-
-# %%
-check("15-error")
 
 # %% [markdown]
-# ## 2 · The Jacobians of an edge
-#
 # The back end needs the derivatives of $e$ with respect to both poses: $J_i = \partial e/\partial
 # x_i$ and $J_j = \partial e/\partial x_j$. The lesson derived most entries in (15.3):
 #
@@ -94,11 +71,13 @@ ask(
 )
 
 # %% [markdown]
-# **Your task.** Derive the heading column of $J_i$. Return $J_i$ and $J_j$, for the same edges as
-# in task 1. Only rounding errors are allowed: an entry may have an error of $3\cdot 10^{-14}$ of the
-# largest coordinate or entry. Difference quotients have larger errors at any step width, but a
-# complex step is exact, and you may use it. Some edges have the coordinates of surveyors, up to
-# $10^7$ m, where an error of $10^{-8}$ of the largest entry is allowed.
+# **Your task.** Derive the heading column of $J_i$. Return $J_i$ and $J_j$. An edge may connect any
+# two poses, also two poses at the same position, and $z$ may be zero. Only rounding errors are
+# allowed: an entry may have an error of $3\cdot 10^{-14}$ of the largest coordinate or entry.
+# Difference quotients have larger errors at any step width, but a complex step is exact, and you
+# may use it with a formula of your own (`error` takes real numbers). Some edges have the
+# coordinates of surveyors, up to $10^7$ m, where an error of $10^{-8}$ of the largest entry is
+# allowed.
 
 
 # %% name="jacobians"
@@ -121,7 +100,7 @@ def jacobians(x_i, x_j, z):
 check("15-jacobians")
 
 # %% [markdown]
-# ## 3 · One Gauss–Newton step
+# ## 2 · One Gauss–Newton step
 #
 # The cost of all edges is $\chi^2 = \sum e^{\mathsf T}\Lambda\,e$. $\Lambda$ is the information
 # matrix of $e$, which is the inverse of its covariance. Linearised, $e(x + \delta) \approx e +
@@ -135,10 +114,10 @@ check("15-jacobians")
 # Edges measure relative poses only, so $\Lambda_x$ is singular (gauge freedom). Therefore **fix
 # pose 0**. Then add $\delta$ to the poses, component by component, and wrap the headings.
 #
-# **Your task.** Take exactly one step, and return the new poses. Use your `error` and
-# `jacobians`: if one of them is wrong, the check uses a correct one in its place. The graph has at least
-# two poses, and a chain of edges connects each pose to pose 0. The edges can have any order. They
-# may point backwards ($i$ larger than $j$), and several edges may connect the same two poses.
+# **Your task.** Take exactly one step, and return the new poses. Use `error` and your
+# `jacobians`: if the latter is wrong, the check uses a correct one in its place. The graph has at
+# least two poses, and a chain of edges connects each pose to pose 0. The edges can have any order.
+# They may point backwards ($i$ larger than $j$), and several edges may connect the same two poses.
 
 
 # %% name="step"
@@ -234,7 +213,7 @@ def _():
 
 
 # %% [markdown]
-# ## 4 · An edge that measures a distance
+# ## 3 · An edge that measures a distance
 #
 # Two robots have radios. The time of flight of a signal gives the **distance** $r$ between the two
 # radios, but no direction and no heading. A radio is usually not at the centre of the robot: $a_i$
@@ -252,7 +231,7 @@ def _():
 #
 # **Your task.** Return $e$ and the two rows. The radios are at least 10 cm apart. They may be at
 # the centres of the robots, and the headings are arbitrary. The rows may have the same errors as in
-# task 2.
+# task 1.
 
 
 # %% name="range"
@@ -341,6 +320,117 @@ def _():
 
 
 # %% [markdown]
+# ## 4 · Gating a loop closure
+#
+# The front end proposes a loop $(i, j, z, \Lambda)$. Before you add it to the graph, test whether it
+# agrees with the graph. Its residual $v = e$ at the poses of the graph has a covariance $S$, if the
+# loop is true, and
+#
+# $$d^2 = v^{\mathsf T} S^{-1} v$$
+#
+# is its squared Mahalanobis distance (15.8). In the lesson pose $i$ was fixed, so only pose $j$ and the
+# match had errors. Here both poses can have errors, and these are correlated: an inaccurate turn
+# near pose 0 moves both. Which part of such an error reaches the residual?
+#
+# You are given the poses of least cost, and $\Lambda_x$ of task 2 at these poses, without the rows and
+# columns of pose 0, which is fixed. The inverse is the joint covariance of all other poses. For a
+# large graph it is expensive. You need only a few of its columns, and these are the solution of a
+# system of linear equations.
+#
+# If the loop is true, $d^2$ has a χ² distribution. `gates[k]` bounds $d^2$ for $k$ degrees of freedom
+# with some probability, such as 99 %.
+#
+# **Your task.** Return $d^2$, and whether the loop may be accepted: whether $d^2$ is not above the gate.
+# The loop is not an edge of the graph yet, and its errors are independent of those of the graph. It
+# may point backwards, and pose $i$ or pose $j$ may be pose 0, but not both. Use `error` and your
+# `jacobians`.
+
+
+# %% name="gate"
+def gate_loop(poses, H, loop, gates):
+    """The squared Mahalanobis distance of a proposed loop, and whether it may be accepted.
+
+    poses : (n, 3) of least cost [m, m, rad]; pose 0 is fixed
+    H : (3n − 3, 3n − 3), Λ_x of the graph without the rows and columns of pose 0
+    loop : (i, j, z, information), two indices, z (3,), Λ (3, 3) of e
+    gates : (7,), gates[k] for k degrees of freedom
+    returns d2, a float, and accepted, True or False
+    """
+    ### BEGIN SOLUTION
+    i, j, z, information = loop
+    J = np.zeros((3, 3 * len(poses)))
+    J[:, 3 * i : 3 * i + 3], J[:, 3 * j : 3 * j + 3] = jacobians(poses[i], poses[j], z)
+    J = J[:, 3:]
+    S = J @ np.linalg.solve(H, J.T) + np.linalg.inv(information)
+    v = error(poses[i], poses[j], z)
+    d2 = v @ np.linalg.solve(S, v)
+    return d2, d2 <= gates[3]
+    ### END SOLUTION
+
+
+# %%
+check("15-gate")
+
+# %%
+ask(
+    "ex15-order",
+    "In the hall of task 2, by odometry alone, the true loop has $d^2 = 8.6$. A false loop measures the "
+    "first pose 0.8 m away from its true position, and has $d^2 = 5.1$. The 99 % gate is 11.3, so both "
+    "pass. You accept the false loop and optimise. **What is $d^2$ of the true loop now?**",
+    {
+        "still 8.6: it is as true as before": "d² compares a loop with the graph. The graph now contains the false loop.",
+        "a little more, and it passes: the false loop is only 0.8 m away": "the false loop claims to be accurate to 2 cm. "
+        "In units of this σ, 0.8 m is a lot.",
+        "several hundred: it is rejected": "after the false loop, the graph predicts the last pose accurately, at a wrong position.",
+    },
+    right="several hundred: it is rejected",
+)
+
+
+# %% name="order" answers="ex15-order"
+def information_matrix(poses, edges):
+    """Λ_x without pose 0, by difference quotients of all residuals."""
+
+    def whitened(x):
+        at = np.vstack([poses[:1], poses[1:] + x.reshape(-1, 3)])
+        return np.ravel([np.linalg.cholesky(L).T @ error(at[i], at[j], z) for i, j, z, L in edges])
+
+    steps = 1e-5 * np.eye(3 * len(poses) - 3)
+    J = np.transpose([(whitened(x) - whitened(-x)) / 2e-5 for x in steps])
+    return J.T @ J
+
+
+@attempt
+def _():
+    start, edges = hall()
+    odometry, true = edges[:9], edges[9]
+    loops = {"true": true, "false": (9, 0, np.array([2.2, 0.3, 0.8]), CERTAIN)}
+    gates, shown = [0, 6.6, 9.2, 11.3, 13.3, 15.1, 16.8], {}
+    for first in ("no", *loops):
+        graph, poses = [*odometry, *([loops[first]] if first in loops else [])], start
+        for _ in range(6):
+            poses = step(poses, graph)
+        H, found = information_matrix(poses, graph), []
+        for name in loops.keys() - {first}:
+            d2, accepted = gate_loop(poses, H, loops[name], gates)
+            found.append(f"{name} loop {d2:.1f}{'' if accepted else ', rejected'}")
+        shown[f"{first} loop accepted; d² of {' and of '.join(sorted(found))}"] = [
+            Poses("corrected", poses)
+        ]
+    fig, _ = views.side_by_side(shown, size=(11, 3.6))
+    views.show(
+        fig,
+        alt="Three rings of ten poses: open by odometry, closed by the true loop, and distorted by a false one.",
+    )
+
+
+# %% [markdown] answers="ex15-order"
+# Whichever loop you accept first, the other one is rejected. A gate compares a loop with the graph, and
+# an accepted false loop is a part of the graph. So a gate in the order in which loops arrive can lock
+# out all true loops. In the last task you compare maps by different loops.
+
+
+# %% [markdown]
 # ## 5 · A map in spite of false loops
 #
 # Two doors that look alike can cause a false loop. The lesson uses a robust kernel: if the $\chi^2$
@@ -404,8 +494,7 @@ def _():
 # you can gate the loops before you use them, search for loops that agree with each other, weight
 # the loops, or try several initial values and compare the costs. Guiding questions:
 #
-# - Which covariance does pose $j$ in the frame of pose $i$ have by odometry, and how large is $d^2$
-#   (15.8) of each loop?
+# - How large is $d^2$ of each loop by odometry alone (`gate_loop`)?
 # - An accepted loop reduces the covariance of the other poses. How does this change $d^2$ of the
 #   loops that you have not judged yet?
 # - If you weight the loops, with which $\Phi$ do you begin? How can you choose between the results

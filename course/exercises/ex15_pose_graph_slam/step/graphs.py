@@ -33,12 +33,12 @@ def _one(rng, pairs, noise, off):
         "poses": compose(truth, off * sized(rng, 0.1, 0.3, truth.shape)),
         "pairs": pairs,
         "measured": compose(between(truth[i], truth[j]), noise * sized(rng, 0.03, 0.15, (m, 3))),
-        "information": np.array([_information(rng) for _ in pairs]),
+        "information": np.array([drawn_information(rng) for _ in pairs]),
     }
     return graph | {"poses": _across(rng, graph)}
 
 
-def _information(rng):
+def drawn_information(rng):
     sigma = rng.uniform(0.3, 1.6, 3)
     mixed = np.eye(3) + sized(rng, 0.2, 0.5, (3, 3))
     return np.linalg.inv(mixed @ np.diag(sigma**2) @ mixed.T)

@@ -91,7 +91,7 @@ STEP = Task(
         _LEAST,
         replace(_WRAPPED, holds=_wrapped),
     ),
-    needs=("15-error", "15-jacobians"),
+    needs=("15-jacobians",),
     begins=(
         "Take a graph of two poses and one edge. Which shape has its J, and which of its columns "
         "are not zero?",
