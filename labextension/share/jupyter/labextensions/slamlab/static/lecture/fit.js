@@ -11,7 +11,7 @@ const COLUMNS = ["", "minmax(0, 1fr) minmax(0, 1fr)", "minmax(0, 2fr) minmax(0, 
 const PICTURE_FIRST = [...COLUMNS.slice(0, 2), "minmax(0, 3fr) minmax(0, 2fr)"];
 const LETTERS = 0.75; // minimum scale of a figure's text
 const LARGEST = 4; // maximum scale of a figure
-const FIGURE = "img.slamlab-figure";
+const FIGURE = "img.slamlab-figure, .slamlab-live";
 export const PRINTED = ".jp-OutputArea-output pre";
 
 // Zoom at which a page of the default size fills the screen.

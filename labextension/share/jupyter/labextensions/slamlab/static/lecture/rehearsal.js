@@ -71,6 +71,7 @@ export async function walk(panel) {
   return seen;
 }
 
+const ALIGNED = /\S {2,}\S/; // columns; a sentence may break
 const CONTROL = "application/vnd.jupyter.widget-view+json";
 const USES = /\b(Press|Click|Move|Drag|Set|Play) [^.]*(▶|slider|button)|(slider|button)s? (above|below)/; // text that needs a control
 
@@ -85,7 +86,7 @@ function faultsOf({ notebook, page, shown, slides, slide, stops, at }) {
   const heads = seen.every(({ node }) => node.querySelector(":is(h1, h2, h3)") && !node.querySelector("p, li, table, mjx-container, img"));
   if (heads && stops[at + 1]?.slide === slide) found.push("shows only a heading at first");
   const printed = seen.flatMap(({ node }) => [...node.querySelectorAll(PRINTED)]).filter(visible);
-  if (printed.some((one) => printedWidth(one) > 1.001)) found.push("breaks a printed line");
+  if (printed.some((one) => ALIGNED.test(one.textContent) && printedWidth(one) > 1.001)) found.push("breaks a printed line");
   const isRight = ({ node }) => node.matches(".slamlab-right");
   if (page.matches(".slamlab-columns") && seen.every(isRight)) found.push("has an empty left half");
   const texts = seen.filter(({ model }) => model.type === "markdown").map(({ node }) => node.textContent);
