@@ -25,7 +25,8 @@ question in a section is asked for this mistake alone.
 The first character of a line states what it contains:
 
 ====== ===========================================================================================
-``-``   a text of the solution, which must occur there once
+``-``   a text of the solution, which must occur there once; without it, ``+`` replaces the text that
+        the section above replaces
 ``+``   the text in its place; each ``+`` is a program of its own
 ``&-``  another text to find, and ``&+`` its replacement, in the program above
 ``=``   a whole program
@@ -186,7 +187,7 @@ def _sections(path, lines, questions):
     for number, mark, text in _entries(path, lines):
         if mark == "##":
             sections.append(_Section(number, text))
-            reader = _Programs(sections[-1].programs)
+            reader = _Programs(sections[-1].programs, reader)
         elif mark == "?" and not sections:
             names, colon, asks = text.partition(": ")
             if not colon:
@@ -211,21 +212,24 @@ def _sections(path, lines, questions):
 class _Programs:
     """Appends the programs of a section to a list, line by line."""
 
-    def __init__(self, programs):
+    def __init__(self, programs, above):
         self.programs = programs
         self.way, self.whole, self.find, self.also = SOLUTION, None, None, None
+        self._named = False  # whether '@' names the program
+        if above and above.way != ABOVE:
+            self.way, self.find = above.way, above.find
 
     def add(self, mark, text):
         """Take a line's mark and text; return what is wrong with it, or None."""
         if mark == "@":
-            self.way, self.find = text, None
+            self.way, self.find, self._named = text, None, True
             if text == ABOVE and self.whole is None:
                 return "'@ above' needs a whole program ('=') above it in this section"
         elif mark == "=":
             self.whole = text
             self.programs.append(text)
         elif mark == "-":
-            self.find = text
+            self.way, self.find = self.way if self._named else SOLUTION, text
         elif mark == "&-":
             self.also = text
         elif mark == "+" and self.find is not None:

@@ -101,6 +101,14 @@ def test_mistakes_are_read_with_their_hint_and_their_edits(tmp_path):
     assert (found.equivalent, found.mutants) == ({"a -> a + 0": "Both are the same."}, 40)
 
 
+def test_a_section_edits_the_text_of_the_section_above_if_it_names_none(tmp_path):
+    file = tmp_path / "mistakes.txt"
+    file.write_text("## a\nA.\n@ norm\n- x\n+ y\n\n## b\nB.\n+ z\n\n## c\nC.\n- x\n+ w\n")
+    ways = [mistake.programs for mistake in mistakes.read(file).mistakes]
+    changes = ("norm", "y"), ("norm", "z"), ("solution", "w")
+    assert ways == [(mistakes.Edit(way, (("x", new),)),) for way, new in changes]
+
+
 @pytest.mark.parametrize(
     ("text", "line", "message"),
     [
