@@ -56,8 +56,12 @@ def _spread_right(inputs, outputs):
 
 
 def _unrelated(a, b):
-    both = (a * b)[np.isfinite(a * b)]
-    return abs(both.sum()) <= BAND * np.sqrt(both.size) + 20
+    # by what the errors do spread, and about their mean: other laws judge both
+    a, b = (z[np.isfinite(a * b)] for z in (a, b))
+    if not a.size:
+        return True
+    a, b = a - a.mean(), b - b.mean()
+    return abs(a @ b) <= (BAND * np.sqrt(a.size) + 20) * max(_rms(a) * _rms(b), ROUNDING)
 
 
 def _told(inputs, outputs, off):
