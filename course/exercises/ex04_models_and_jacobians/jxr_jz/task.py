@@ -7,7 +7,7 @@ from classroom.exercises.references import Reference
 from classroom.exercises.task import Probe, Task
 from course.exercises.ex04_models_and_jacobians.calls import CALLS
 from course.exercises.ex04_models_and_jacobians.generic import polar, poses
-from course.exercises.surveyed import EXACT, NAME, differences, surveyed
+from course.exercises.surveyed import EXACT, NAME, differences, rounded, surveyed
 
 ROWS = 24
 
@@ -83,6 +83,14 @@ def _promised(inputs):
     return inputs["z"][:, 0] > 0
 
 
+def _exact(name, says, derivative, asks):
+    def want(inputs):
+        return {name: derivative(inputs)}
+
+    law = equals(name, 2, says, want, tolerance=EXACT, asks=asks, step=_on_the_way)
+    return rounded(law, want)
+
+
 TASK = Task(
     id="04-jxr-jz",
     title="J_xr and J_z of a new landmark",
@@ -90,27 +98,21 @@ TASK = Task(
     inputs=_random,
     shapes=_shapes,
     laws=(
-        equals(
+        _exact(
             "J_xr",
-            2,
             "J_xr contains the derivatives of the landmark g with respect to x, y, θ of the pose",
-            lambda inputs: {"J_xr": by_pose(inputs)},
-            tolerance=EXACT,
-            asks="Imagine that the landmark is the end of a stick that is fixed to the robot. "
+            by_pose,
+            "Imagine that the landmark is the end of a stick that is fixed to the robot. "
             "Move the robot a little, then turn it. How far does the end of the stick move, and "
             "in which direction?",
-            step=_on_the_way,
         ),
-        equals(
+        _exact(
             "J_z",
-            2,
             "J_z contains the derivatives of the landmark g with respect to range and bearing",
-            lambda inputs: {"J_z": by_measurement(inputs)},
-            tolerance=EXACT,
-            asks="Increase the range by 1 cm, then the bearing by 0.01 rad. In which direction "
+            by_measurement,
+            "Increase the range by 1 cm, then the bearing by 0.01 rad. In which direction "
             "does the landmark move each time? Does the distance that it moves depend on the "
             "range?",
-            step=_on_the_way,
         ),
     ),
     probes=(
