@@ -133,7 +133,7 @@ def careful_step(x, P, ids, u, seen, z, C, R):
     last[0] = P
     return x, np.diag([0.1, 0.1, 0.03, *[0.1] * (len(x) - 3)]) ** 2, ids
 
-# %% wrong: half of R
+# %% wrong: seven tenths of R
 def careful_step(x, P, ids, u, seen, z, C, R):
     x, P = predict(x, P, u, C)
     for i, one in zip(seen, z):
@@ -145,7 +145,7 @@ def careful_step(x, P, ids, u, seen, z, C, R):
         v[1] = wrap(v[1])
         H = H_full(x, j)
         if v @ np.linalg.solve(H @ P @ H.T + R, v) < 13.8:
-            x, P = update(x, P, one, j, R / 2)
+            x, P = update(x, P, one, j, 0.7 * R)
     return x, P, ids
 
 # %% wrong: false sight is taken for a landmark that moved: placed anew, the old one forgotten
