@@ -103,10 +103,12 @@ def _objection(call, moved, want, rows, weights):
     due, got = n * same @ want, n * weights @ parents
     if not parents.any(axis=1).all():
         return f"{begin} some rows are not poses of moved particles."
-    if np.ptp(weights) > 1e-9 / n:
-        kept = np.abs(got - due).max() < SAME * n
-        return "" if kept else f"{begin} some particles have wrong weights."
     worth = 1 / np.sum(want**2)
+    if np.ptp(weights) > 1e-9 / n:
+        if np.abs(got - due).max() >= SAME * n:
+            return f"{begin} some particles have wrong weights."
+        late = worth < n / 2 * (1 - SAME)
+        return f"{begin} you did not resample: n_eff was {worth:.1f} of {n}." if late else ""
     # copies of one particle are the same set, resampled or not, except for the odometry noise
     if np.ptp(want) > 1e-9 / n and not same.all() and worth > n / 2 * (1 + SAME):
         return f"{begin} you resampled, although n_eff was {worth:.1f} of {n} particles."
