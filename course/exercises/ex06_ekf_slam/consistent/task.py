@@ -6,7 +6,7 @@ from scipy.stats import chi2
 from classroom.exercises.correctness_laws import equals, once
 from classroom.exercises.task import Probe, Task
 from course.exercises.ex06_ekf_slam.calls import CALLS
-from course.exercises.ex06_ekf_slam.runs import runs, truth
+from course.exercises.ex06_ekf_slam.runs import STEPS, runs, truth
 from slamlab import models
 from slamlab.evaluation import nees
 from slamlab.filters.ekf_slam_filter import MAK
@@ -16,13 +16,14 @@ from slamlab.models import jacobians
 TAILS = [0.025, 0.975]
 
 
-def experiments(rng, count=3, repeated=6, known=True, **how):
+def experiments(rng, count=3, repeated=6, known=True, steps=STEPS, **how):
     """Experiments of some runs each; the filter's C and R are right, or wrong by a factor."""
     found = []
     for _ in range(count):
         one = runs(rng, **how)
-        end = truth(one)[2][-1] + [0, 0, 2 * np.pi * rng.integers(-1, 2)]
-        one |= {name: one[name][:repeated] for name in ("x", "u", "z")}
+        end = truth(one)[2][steps - 1] + [0, 0, 2 * np.pi * rng.integers(-1, 2)]
+        one |= {"x": one["x"][:repeated], "seen": one["seen"][:steps]}
+        one |= {name: one[name][:repeated, :steps] for name in ("u", "z")}
         one |= {name: one[name] * rng.choice([0.3, 1.0, 3.0]) for name in ("C", "R")}
         found.append(one | {"end": end if known else np.full(3, np.nan)})
     return {name: np.array([one[name] for one in found]) for name in found[0]}
@@ -129,7 +130,11 @@ CONSISTENT = Task(
             alone=False,
         ),
     ),
-    probes=(Probe("a single run", lambda rng: experiments(rng, 2, 1)),),
+    probes=(
+        Probe("a single run", lambda rng: experiments(rng, 2, 1)),
+        # whose number of NIS is not that of its steps
+        Probe("a drive of six steps", lambda rng: experiments(rng, 2, steps=6)),
+    ),
     needs=("06-augment", "06-update"),
     begins=(
         "Begin with your slam_step. In which of its lines do you know an innovation, and its S?",
