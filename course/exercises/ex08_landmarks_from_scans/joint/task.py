@@ -26,7 +26,7 @@ def inputs(rng):
     return _rows(given, np.concatenate([np.flatnonzero(kind)[:EACH] for kind in kinds]))
 
 
-def scenes(rng, rows, m=3, N=4, first=(-np.pi, np.pi), map_errors=1.0):
+def scenes(rng, rows, m=3, N=4, first=(-np.pi, np.pi), map_errors=1.0, pose_errors=1.0):
     """Scenes after an inaccurate turn; walls 0 and 1, 2 and 3, … are nearly the same."""
     pair = np.arange(N) // 2
     alpha = wrap(
@@ -42,7 +42,9 @@ def scenes(rng, rows, m=3, N=4, first=(-np.pi, np.pi), map_errors=1.0):
     for j in range(N):
         H[:, j, :, 3 + 2 * j : 5 + 2 * j] = np.eye(2)
         H[:, j, 0, 4 + 2 * j] = pose[:, 0] * s[:, j] - pose[:, 1] * c[:, j]
-    sigma = np.concatenate([[0.05, 0.05, 0.15], map_errors * np.tile([0.03, 0.02], N)])
+    sigma = np.concatenate(
+        [pose_errors * np.array([0.05, 0.05, 0.15]), map_errors * np.tile([0.03, 0.02], N)]
+    )
     A = sigma[:, None] * (np.eye(len(sigma)) + 0.3 * rng.standard_normal((rows, *[len(sigma)] * 2)))
     R = covariances(rng, (rows,), (0.02, 0.04), (0.02, 0.04))
     expected = np.stack([rho, alpha], axis=-1)
@@ -62,6 +64,18 @@ def scenes(rng, rows, m=3, N=4, first=(-np.pi, np.pi), map_errors=1.0):
 
 def _rows(given, which):
     return {name: array[which] for name, array in given.items()}
+
+
+def _two_by_two(rng):
+    """Three pairs of which every two are compatible, but not all three."""
+    given = scenes(rng, 8, N=3, map_errors=0.05, pose_errors=0.05)
+    each = (given["gates"][:, 6] / 3 + given["gates"][:, 4] / 2)[:, None] / 2 * [0.95, 1, 1.05]
+    angle = rng.uniform(-np.pi, np.pi, each.shape)
+    white = np.sqrt(each)[..., None] * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    off = np.linalg.cholesky(given["R"])[:, None] @ white[..., None]
+    given["z"] = given["expected"] + off[..., 0]
+    given["z"][..., 1] = wrap(given["z"][..., 1])
+    return clear(given)
 
 
 def distances(given, walls):
@@ -259,6 +273,7 @@ JOINT = Task(
         Probe("a single measurement", lambda rng: clear(scenes(rng, 8, m=1))),
         Probe("walls behind the robot", lambda rng: clear(scenes(rng, 8, m=2, first=(2.8, 3.0)))),
         Probe("a map without errors", lambda rng: clear(scenes(rng, 8, m=2, map_errors=0.0))),
+        Probe("pairs that are compatible two by two", _two_by_two),
         Probe("more measurements than walls", lambda rng: clear(scenes(rng, 6, m=3, N=2))),
         Probe("an empty map", lambda rng: scenes(rng, 2, m=2, N=0)),
         Probe("an empty scan", lambda rng: scenes(rng, 2, m=0)),
