@@ -25,8 +25,8 @@ question in a section is asked for this mistake alone.
 The first character of a line states what it contains:
 
 ====== ===========================================================================================
-``-``   a text of the solution, which must occur there once; without it, ``+`` replaces the text that
-        the section above replaces
+``-``   a text of the solution, which must occur there once; without it, ``+`` replaces the text
+        that the section above replaces
 ``+``   the text in its place; each ``+`` is a program of its own
 ``&-``  another text to find, and ``&+`` its replacement, in the program above
 ``=``   a whole program
