@@ -120,6 +120,21 @@ def meeting(rng):
     }
 
 
+def close_together(rng):
+    """Boxes that almost touch: the measured interval is wider than π, and the heading at one end."""
+    k, at, half = np.arange(16), rng.uniform(-3, 3, (16, 2)), rng.uniform(0.3, 0.5, (2, 16, 2))
+    toward = np.column_stack([np.cos(k * np.pi / 2), np.sin(k * np.pi / 2)])
+    apart = half.sum(axis=0) + rng.uniform(0.01, 0.03, (16, 1))
+    given = {
+        "robot": boxes_around(at, half[0]),
+        "box": boxes_around(at + toward * apart, half[1]),
+        "bearing": rng.uniform(-np.pi, np.pi, 16),
+        "bound": rng.uniform(0.2, 0.4, 16),
+    }
+    before, behind = rng.uniform(0.05, 0.2, (2, 16))
+    return {"heading": wrapped(told(given)[k, k // 4 % 2] - before, before + behind)} | given
+
+
 def overlap(given):
     """(n,) bool: the boxes of robot and object meet."""
     r, o = given["robot"], given["box"]

@@ -8,6 +8,7 @@ from course.exercises.ex10_set_membership_slam.boxes import off, turned
 from course.exercises.ex10_set_membership_slam.calls import CALLS
 from course.exercises.ex10_set_membership_slam.heading.bearings import (
     across_pi,
+    close_together,
     exact,
     far_round,
     inputs,
@@ -103,6 +104,7 @@ HEADING = Task(
         Probe("a measurement far from the origin that contracts both ends", narrowed),
         Probe("a measurement that contracts nothing", inside),
         Probe("boxes that overlap in other ways", meeting),
+        Probe("boxes close together, so that the measurement allows most headings", close_together),
     ),
     parts=lambda given, out: {
         "apart": turned(out["result"])[~overlap(given)],
