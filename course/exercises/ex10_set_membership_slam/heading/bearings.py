@@ -121,7 +121,7 @@ def meeting(rng):
 
 
 def close_together(rng):
-    """Boxes that almost touch: the measured interval is wider than π, and the heading at one end."""
+    """Boxes that almost touch: the measured interval is wider than π, the heading at one end."""
     k, at, half = np.arange(16), rng.uniform(-3, 3, (16, 2)), rng.uniform(0.3, 0.5, (2, 16, 2))
     toward = np.column_stack([np.cos(k * np.pi / 2), np.sin(k * np.pi / 2)])
     apart = half.sum(axis=0) + rng.uniform(0.01, 0.03, (16, 1))
