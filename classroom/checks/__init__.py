@@ -43,10 +43,7 @@ def hint(task_id=None):
         if one is not task:
             return timed_runs.run_task(one, namespace, references, explain=False)[0]
         with time_limit.capture_output():
-            try:
-                texts.append(hint_levels.next_hint(task, namespace, references))
-            except time_limit.TimeLimitExceeded:
-                texts.append(timed_runs.too_slow(task))
+            texts.append(hint_levels.next_hint(task, namespace, references))
         return task.failed("hint", texts[0])
 
     catalogue.exercise(task.id[:2]).verdicts(judge_one, only=[task.id])
@@ -190,6 +187,7 @@ def _check(task_id, namespace):
         print(f"Your code printed:\n{printed[task.id]}\n")
     if warned.get(task.id):
         print(f"{warned[task.id]}\n")
+    hint_levels.remember_check(task, verdict)
     at_once = hint_levels.shows_hint_at_once()
     print(verdict_text.coloured(verdict_text.format_verdict(task, verdict, at_once)))
     if verdict.kind != NOT_RUN:

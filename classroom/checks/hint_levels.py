@@ -1,19 +1,22 @@
 """Hint levels: each call of ``hint`` shows the next level (scaffolding) of what ``run_task`` chose
 for a mistake: a question about it, a step on the way, and the sentence that names it."""
 
+import time
 import tomllib
 
 import numpy as np
 
+from classroom.checks.timed_runs import too_slow
 from classroom.coursework.folder import course_folder
 from classroom.exercises import failing_case_text, failing_cases, run_task
 from classroom.exercises.function_calls import StudentError
 from classroom.exercises.function_calls.run_and_pack import call_on_sets
 from classroom.exercises.references import in_place
 from classroom.exercises.task import OPEN_SEED, UNCHANGED
-from classroom.exercises.time_limit import time_limit
+from classroom.exercises.time_limit import TimeLimitExceeded, time_limit
 
 _shown_levels = {}  # (task id, mistake or law) to number of hints shown, and the answer's hash
+_last_problems = {}  # task id to the problem of the last check that hint cannot find itself
 
 _STEP, _NAMED = "a step on the way", "a sentence about your answer"
 _BEGIN = "More hints follow once your functions return an answer that can be judged."
@@ -46,13 +49,19 @@ def describe_next_hint(task, verdict) -> str:
     return f"shows {kinds[level - 1]}" if level <= len(kinds) else ""
 
 
+def remember_check(task, verdict):
+    """Remember the problem of a check, because ``hint`` may have more time or find no mistake."""
+    found = verdict.problem if verdict.kind in ("time", "stopped", "borrowed") else None
+    _last_problems[task.id] = found
+
+
 def _key(task, verdict, law):
     known = verdict.question is not None
     return task.id, verdict.diagnosis if known else law.name if law else "begin"
 
 
 def next_hint(task, namespace, references=()) -> str:
-    """Return the next hint. Raises TimeLimitExceeded.
+    """Return the next hint.
 
     references : replace functions of earlier tasks"""
     with in_place(namespace, references):
@@ -60,15 +69,31 @@ def next_hint(task, namespace, references=()) -> str:
 
 
 def _next_hint(task, namespace):
-    sets = task.draw_inputs(OPEN_SEED)
+    sets, began = task.draw_inputs(OPEN_SEED), []
+
+    def timed_call(*arguments):
+        began.append(time.perf_counter())
+        return task.call(*arguments)
+
     try:
         with time_limit(task.call.seconds):
-            answers = call_on_sets(task.call, namespace, sets)
+            answers = call_on_sets(timed_call, namespace, sets)
     except StudentError as error:
-        return failing_case_text.wrapped(f"{error.message}\n{_question_to_begin(task)}")
+        return _begin(task, error.message)
+    except TimeLimitExceeded:
+        return _begin(task, too_slow(task), _slowest(sets, began, time.perf_counter()))
+    end = time.perf_counter()
     verdict = task.judge(sets, answers)
+    if verdict.problem:
+        return _begin(task, verdict.problem)
     verdict = run_task.add_mistake_and_hint(task, verdict, lambda: (sets, answers))
     case = _smallest_case(task, namespace, sets, answers)
+    if case is None and not verdict.full:  # a degenerate answer
+        return _begin(task, f"A question: {verdict.question}", f"Hint: {verdict.hint}")
+    if case is None and (problem := _last_problems.get(task.id)):
+        lines = [f"The last check: {problem}"]
+        lines += [_slowest(sets, began, end)] * (problem == too_slow(task))
+        return _begin(task, *lines, "If you have changed your functions since, call check again.")
     if case is None:
         return f"Your answer to {task.id} breaks no law, so there is no hint."
     rungs = list(_rungs(task, verdict, case))
@@ -91,6 +116,17 @@ def _rungs(task, verdict, case):
         yield _NAMED, failing_case_text.wrapped(f"Hint: {verdict.hint}")
     elif case.law is UNCHANGED:
         yield _NAMED, "Hint: Work on a copy of the argument, such as x = x.copy()."
+
+
+def _begin(task, *lines):
+    return failing_case_text.wrapped("\n".join([*lines, _question_to_begin(task)]))
+
+
+def _slowest(sets, began, end):
+    """Describe the inputs on which the functions took longest."""
+    spent = np.diff([*began, end])
+    name = list(sets)[spent.argmax()] or "the random inputs"
+    return f"Your functions take longest with {name}: {spent.max():.2g} s."
 
 
 def _question_to_begin(task):

@@ -34,6 +34,7 @@ def _a_task_with_a_question_and_a_step(monkeypatch):
     )
     monkeypatch.setattr(fake, "EXERCISE", dataclasses.replace(fake.EXERCISE, tasks=(task,)))
     monkeypatch.setattr(hint_levels, "_shown_levels", {})
+    monkeypatch.setattr(hint_levels, "_last_problems", {})
 
 
 @pytest.fixture
@@ -116,6 +117,7 @@ def test_a_question_that_is_the_only_hint_is_announced_as_such(output_of, monkey
         (None, "turn is not defined"),
         (lambda v, angle: (_ for _ in ()).throw(NotImplementedError), "not attempted yet"),
         (lambda v, angle: 1 / 0, "ZeroDivisionError: division by zero"),
+        (lambda v, angle: v * np.nan, "turn returned NaN or infinity"),
     ],
 )
 def test_an_answer_that_cannot_be_judged_gets_questions_to_begin(
@@ -135,6 +137,15 @@ def test_an_answer_that_cannot_be_judged_gets_questions_to_begin(
     assert output_of(turn) == right
 
 
+def test_a_degenerate_answer_that_obeys_all_laws_is_not_reported_as_right(output_of, monkeypatch):
+    law = Law("turned", 2, "turns left", lambda i, o: True)
+    task = dataclasses.replace(fake.EXERCISE.tasks[0], laws=(law,))
+    monkeypatch.setattr(fake, "EXERCISE", dataclasses.replace(fake.EXERCISE, tasks=(task,)))
+    text = output_of(lambda v, angle: np.ones(2))
+    assert text.startswith("A question: On which of the arguments does your answer depend")
+    assert "no law" not in text
+
+
 @pytest.mark.parametrize("id", ["99-nope", "98-double", "", 7, None])
 def test_an_unknown_task_gets_one_clear_line(output_of, id):
     assert re.fullmatch(r"✗ no .*\n", output_of(id=id))
@@ -145,12 +156,31 @@ def test_under_nbgrader_nothing_is_given_away(output_of, monkeypatch):
     assert output_of(right_turn) == ""
 
 
-def test_a_function_that_hangs_ends(output_of):
-    def hangs(v, angle):
-        while True:
-            pass
+def hangs(v, angle):
+    while angle == 0:
+        pass
+    return turn(v, angle)
 
-    assert output_of(hangs).startswith("still running after 0.2 s")
+
+def test_after_a_time_out_the_slow_inputs_are_named_and_questions_asked(output_of, monkeypatch):
+    task = dataclasses.replace(fake.EXERCISE.tasks[0], begins=("Which way?", "How far?"))
+    monkeypatch.setattr(fake, "EXERCISE", dataclasses.replace(fake.EXERCISE, tasks=(task,)))
+    for question in task.begins:
+        text = output_of(hangs)
+        assert text.startswith("still running after 0.2 s")
+        assert "\nYour functions take longest with no angle: " in text
+        assert f"\nA question to begin with: {question}\n" in text
+
+
+def test_after_a_check_without_an_answer_a_hint_does_not_report_that_no_law_is_broken(output_of):
+    names = {"check": check, "turn": hangs}
+    eval("check('99-turn')", names)
+    text = output_of(turn)
+    assert "The last check: still running after 0.2 s" in text
+    assert "call check again" in text and "A question to begin with" in text
+    assert "no law" not in text
+    eval("check('99-turn')", names | {"turn": turn})
+    assert "breaks no law" in output_of(turn)
 
 
 def test_a_case_that_takes_long_to_shrink_is_shown_as_it_is(output_of):
