@@ -11,7 +11,7 @@ from classroom.exercises.failing_case_text import UNNAMED
 from classroom.exercises.function_calls import StudentError
 from classroom.exercises.function_calls.run_and_pack import MAIN
 from classroom.exercises.outputs import all_checked_outputs
-from classroom.exercises.verdict_text import and_others
+from classroom.exercises.verdict_text import name_probes
 
 FEW = 3  # fewer numbers may match a pattern by chance
 NEAR = 0.03  # largest error of a "near" answer, relative to the largest expected number
@@ -76,7 +76,7 @@ def _only_there(laws):
     names = list(dict.fromkeys(name for broken in laws.values() for name in broken))
     if not names or MAIN in names:
         return None
-    return "only there", ONLY_THERE.format(and_others(names))
+    return "only there", ONLY_THERE.format(name_probes(names))
 
 
 def _how(laws, sets, found):

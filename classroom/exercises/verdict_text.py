@@ -102,14 +102,15 @@ def broken_by(law, task) -> str:
     if MAIN in law.where:
         as_a_whole = law.tried <= (task.sets_judged(law.name) if task else 1)
         return "" if as_a_whole else f"broken by {law.failed} of {law.tried} inputs"
-    return f"broken with {and_others(list(law.where))}" if law.where else ""
+    return f"broken with {name_probes(list(law.where))}" if law.where else ""
 
 
-def and_others(probes) -> str:
-    """Name the first probe and count the other probes: "an empty map and 1 other kind of input"."""
-    count = len(probes) - 1
-    kinds = "1 other kind of input" if count == 1 else f"{count} other kinds of input"
-    return f"{probes[0]} and {kinds}" if count else probes[0]
+def name_probes(probes) -> str:
+    """Name up to three probes, as the end of "with …": "an empty map and with α near π"."""
+    if len(probes) > 3:
+        return f"{len(probes)} kinds of special inputs, for instance with {probes[0]}"
+    *others, last = probes
+    return f"{', with '.join(others)} and with {last}" if others else last
 
 
 def _in_notebook():

@@ -12,6 +12,7 @@ from classroom.exercises.function_calls.run_and_pack import call_on_sets
 from classroom.exercises.run_task import run_and_explain
 from classroom.exercises.task import OPEN_SEED, Probe
 from classroom.exercises.unrecognised_mistakes import describe_error_pattern
+from classroom.exercises.verdict_text import name_probes
 from tests.classroom.grading import fake
 
 
@@ -101,10 +102,14 @@ def test_an_error_pattern_states_which_probe_alone_is_wrong_and_how():
         name, hint = report(function)
         assert (name, "only with no angle." in hint) == ("only there", True)
         assert message in hint and "large" not in hint
-    assert (
-        "no angle and 1 other kind"
-        in report(lambda v, a: right(v, a) + (a in (0, 1)) * v[0] ** 2)[1]
-    )
+    both = report(lambda v, a: right(v, a) + (a in (0, 1)) * v[0] ** 2)[1]
+    assert "shows only with no angle and with large vectors. What" in both
+
+
+def test_up_to_three_kinds_of_input_are_named_and_more_are_counted():
+    assert name_probes(["α near π"]) == "α near π"
+    assert name_probes(["a", "b", "c"]) == "a, with b and with c"
+    assert name_probes([*"abcd"]) == "4 kinds of special inputs, for instance with a"
 
 
 def _rotations(inputs):
