@@ -68,8 +68,17 @@ def _relaxed(inputs, outputs):
 
 
 def _verdict(inputs, outputs):
-    names = np.array(['better = "A"', 'better = "B"', 'better = "cannot tell"'])
+    names = np.array(['"A"', '"B"', '"cannot tell"'])
     return inputs, {k: names[int(a)] if k == "better" else a for k, a in outputs.items()}
+
+
+def _consistency(inputs, outputs):
+    """Show None for the true pose and for nees; ``outputs`` may lack any of its arrays."""
+    known = not np.isnan(inputs["end"]).any()
+    shown = {name: array for name, array in outputs.items() if name != "known"}
+    if not outputs.get("known", known) and {"nees", "known"} & set(outputs):
+        shown["nees"] = NONE["result"]
+    return inputs | ({} if known else {"end": NONE["result"]}), shown
 
 
 STEPS = (
@@ -90,9 +99,9 @@ PRESENTATIONS = {
         "order of the ids:"
     ),
     "06-consistent": CasePresentation(
-        "consistency is called with seen and z without the −1 that pads a scan, and with end = "
-        "None if end is nan. It is given",
-        "it returns nis and nees (known = 0 stands for None):",
+        "consistency is given these arguments, but neither a −1 in seen nor the row of z that "
+        "belongs to it: both only fill up short scans here.",
+        shown=_consistency,
     ),
     "08-associate": CasePresentation(returned="it returns (−1 stands for None)"),
     "08-pillar": CasePresentation(

@@ -101,9 +101,9 @@ def _share_off(got, right):
 def format_numbers(name, array) -> str:
     """Format an array's name and rounded numbers: "P = [[0.1, 0], [0, 0.2]]"."""
     array = np.asarray(array)
-    if array.dtype.kind == "U":  # no number was returned
-        return str(array)
     label = "" if name in UNNAMED else f"{name} = "
+    if array.dtype.kind == "U":  # no number was returned
+        return f"{label}{array}"
     if name in WRITTEN and array.ndim == 1:
         written = f"{label}{WRITTEN[name](array.astype(int))}"
         return textwrap.fill(written, WIDTH, subsequent_indent=" " * len(label))

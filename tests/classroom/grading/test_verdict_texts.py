@@ -146,6 +146,21 @@ def test_of_random_draws_the_call_with_the_largest_deviation_is_shown():
         assert name not in case
 
 
+@pytest.mark.parametrize(
+    ("wrong", "shown"),
+    [
+        ("test(nis, 2), (0, 0, 0) if end is None else test(nees, 3)", r"\[0, 0, 0\] None"),
+        ("test(nis, 2), None", r"None \[.*\]"),
+    ],
+)
+def test_none_is_shown_as_none(wrong, shown):
+    returned = "test(nis, 2), None if end is None else test(nees, 3)"
+    case = explained_verdict("06-consistent", edited("06-consistent", (returned, wrong))).case
+    assert re.fullmatch(shown, " ".join(re.findall(r"nees = (.*)", case)))
+    assert "known" not in case and "nan" not in case
+    assert ("end = None" in case) == shown.endswith("None")
+
+
 @pytest.mark.parametrize("id", PRESENTATIONS)
 def test_a_presentation_belongs_to_a_task_and_can_show_a_failure(id):
     task = catalogue.task(id)
