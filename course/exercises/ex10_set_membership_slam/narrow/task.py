@@ -19,7 +19,7 @@ STEPS = {"less": (1, 1.85), "small": (1.5, 1.6), "smallest": (2, 1.4)}
 The lesson's filter, iterated until nothing shrinks, reaches 3.0
 (1.9 to 4.1 over 31 seeds).
 """
-NAMES = "x", "y", "the heading"
+EMPTY = "x_min > x_max", "y_min > y_max", "left < right"
 
 
 def widths(out):
@@ -49,10 +49,10 @@ def _one_round(robot, heading, objects, sights, bounds):
 
 
 def _ratios(of, to):
-    """(n, 3) how many times as wide, and (3,) on average, without unknown ones."""
+    """(3,) how many times as wide on average, without unknown ones."""
     some = np.isfinite(to).all(axis=1)
     with np.errstate(invalid="ignore"):
-        return of / to, of[some].sum(axis=0) / to[some].sum(axis=0)
+        return of[some].sum(axis=0) / to[some].sum(axis=0)
 
 
 def _usual(given):
@@ -62,30 +62,33 @@ def _usual(given):
 def _within(reference, most, always=True):
     def holds(given, out):
         sound = poses.outside_each(given, out).max(axis=1) <= SOUND
-        if not (always or _usual(given)):
+        if not sound.all() or not (always or _usual(given)):
             return sound
-        each, average = _ratios(widths(out), reference(given))
-        if not sound.all() or average.mean() <= most:
-            return sound
-        return sound & ~(each > most).any(axis=1)  # NaN where the smallest is not known
+        # all robots together; NaN where no smallest box is known
+        return not _ratios(widths(out), reference(given)).mean() > most
 
     return holds
 
 
-def _why(most, *references):
+def _why(most, reference, name):
     def why(given, out):
         by = poses.outside_each(given, out)
         if by.max() > SOUND:
             row, which = np.unravel_index(by.argmax(), by.shape)
             x, y, theta = poses.extremes(given)[row, which]
+            empty = [text for text, w in zip(EMPTY, widths(out)[row], strict=True) if w < 0]
             return (
                 f"The pose ({x:.3f} m, {y:.3f} m, {theta:.3f} rad) agrees with every measurement "
-                f"and with the given box and heading, but it is {by.max():.2g} outside."
+                "and with the given box and heading, but "
+                + (" and ".join(empty) or f"it is {by.max():.2g} outside")
+                + "."
             )
-        ratios = ((_ratios(widths(out), of(given))[0], name) for of, name in references)
-        each, name = next((each, name) for each, name in ratios if (each > most).any())
-        told = ", ".join(f"{w} {ratio:.2f}" for w, ratio in zip(NAMES, each[0], strict=True))
-        return f"This is {told} times as wide as {name}; on average {most:g} is allowed."
+        ratios = _ratios(widths(out), reference(given))
+        x, y, theta = ratios
+        return (
+            f"Your mean ratio is {ratios.mean():.3f} (x {x:.2f}, y {y:.2f}, heading {theta:.2f}), "
+            f"compared with {name(given)}; at most {most:g} is allowed."
+        )
 
     return why
 
@@ -103,6 +106,10 @@ def _lesson(given):
     return (_look if _usual(given) else _known)(given)
 
 
+def _lesson_name(given):
+    return "one pass of look" if _usual(given) else "the given box and heading"
+
+
 _ON_THE_WAY = {
     "less": "Cut the interval of the heading into two halves, and call look for each half. Compare "
     "both boxes with the box for the whole interval.",
@@ -118,7 +125,7 @@ def _step(name, asks):
     says = (
         f"all feasible poses are inside, and the mean width is at most {most:g} times the smallest"
     )
-    why = _why(most, (poses.tightest, "the smallest box and heading found"))
+    why = _why(most, poses.tightest, lambda given: "the smallest boxes and headings found")
     holds = _within(poses.tightest, most, always=False)
     return Law(
         name, points, says, holds, why=why, asks=asks, step=_ON_THE_WAY[name], after=("sound",)
@@ -147,7 +154,7 @@ NARROW = Task(
             "all feasible poses are inside, and the mean width is at most the mean width after "
             "one pass of look (in special cases: the mean width of the given box and heading)",
             _within(_lesson, 1.0),
-            why=_why(1.0, (_known, "the given box and heading"), (_look, "after one pass of look")),
+            why=_why(1.0, _lesson, _lesson_name),
             asks="Which poses does each line of your code exclude? Are all of these poses "
             "certainly infeasible?",
             step="Draw a pose at random, and compute exact measurements for it. It must be inside "
@@ -187,6 +194,6 @@ NARROW = Task(
             ("sound",),
         ),
     ),
-    parts=lambda given, out: {"all": np.column_stack([out["robot"], turned(out["heading"])])},
+    parts=lambda given, out: {"robot": out["robot"], "heading": turned(out["heading"])},
     may_round=False,
 )
