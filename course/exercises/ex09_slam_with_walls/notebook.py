@@ -158,17 +158,17 @@ def add(x, P, z, R):
 
 def update(x, P, z, j, R):
     """Update with the measurement z of wall j, counted from 0; returns x, P."""
-    at = 3 + 2 * j
-    rho, alpha = x[at : at + 2]
-    c, s = np.cos(alpha), np.sin(alpha)
-    v = z - np.array([rho - x[0] * c - x[1] * s, alpha - x[2]])
+    wall = 3 + 2 * j
+    r, a = x[wall : wall + 2]
+    cos, sin = np.cos(a), np.sin(a)
+    v = z - np.array([r - x[0] * cos - x[1] * sin, a - x[2]])
     v[1] = wrap(v[1])
-    H = np.zeros((2, len(x)))
-    H[:, :3] = [[-c, -s, 0], [0, 0, -1]]
-    H[:, at : at + 2] = [[1, x[0] * s - x[1] * c], [0, 1]]
-    S = H @ P @ H.T + R
-    K = P @ H.T @ np.linalg.inv(S)
-    return x + K @ v, P - K @ S @ K.T
+    H = np.zeros((2, x.size))
+    H[:, :3] = [[-cos, -sin, 0], [0, 0, -1]]
+    H[:, wall : wall + 2] = [[1, x[0] * sin - x[1] * cos], [0, 1]]
+    PHt = P @ H.T
+    K = PHt @ np.linalg.inv(H @ PHt + R)
+    return x + K @ v, P - K @ PHt.T
 
 
 # %%

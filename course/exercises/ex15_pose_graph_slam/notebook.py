@@ -55,22 +55,7 @@ def error(x_i, x_j, z):
 #   occurs in $\mathrm{Rot}(\theta_i)^{\mathsf T}(p_j - p_i)$ and in the angle. So the heading
 #   column is the derivative of the first expression, rotated by $\mathrm{Rot}(\theta_z)^{\mathsf
 #   T}$.
-
-# %%
-ask(
-    "ex15-swing",
-    "Pose $j$ lies straight ahead of pose $i$. Now pose $i$ turns a little to the *left*. **In "
-    "which direction does pose $j$ move in the frame of pose $i$?**",
-    {
-        "to the left": "the robot turns, and pose j stays where it is in the world frame.",
-        "to the right, by the distance times the angle": "in the frame of pose i, pose j moves on a circle whose radius is the distance.",
-        "to the right, by the same amount at any distance": "the angle is the same at any distance. The shift is the angle times the distance.",
-        "it does not move: it stays straight ahead": "pose i now has another heading, to the left of pose j.",
-    },
-    right="to the right, by the distance times the angle",
-)
-
-# %% [markdown]
+#
 # **Your task.** Derive the heading column of $J_i$. Return $J_i$ and $J_j$. An edge may connect any
 # two poses, also two poses at the same position, and $z$ may be zero. Only rounding errors are
 # allowed: an entry may have an error of $3\cdot 10^{-14}$ of the largest coordinate or entry.
