@@ -86,10 +86,11 @@ SLAM = Task(
             ENDS.honest(np.s_[:3]),
             why=_spread(np.s_[:3]),
             after=("ids",),
-            asks="Was z measured before or after the motion? How many predictions does one step "
-            "need?",
-            step="Call slam_step once with an empty scan. The pose must move by u, and the "
-            "variances of the pose must grow.",
+            asks="How many predictions does one step need, and which landmark of x does the k-th "
+            "row of z belong to?",
+            step="Call slam_step with an empty scan: the pose must move by u, and its variances "
+            "must grow. Then call it with a scan of two known landmarks, and with the same scan in "
+            "reverse order: x must be almost the same.",
         ),
         Law(
             "map",
@@ -98,9 +99,11 @@ SLAM = Task(
             ENDS.honest(MAP),
             why=_spread(MAP),
             after=("ids",),
-            asks="Which landmark of x does the k-th row of z belong to?",
-            step="Call slam_step with a scan of two landmarks, then with the same scan in reverse "
-            "order. Neither landmark may move by more than the noise.",
+            asks="At which pose is a new landmark added, and what does its second measurement "
+            "change?",
+            step="Begin with an exactly known pose, and measure one new landmark: its position "
+            "must be g of the pose after the motion. Measure it again: x must change, and the "
+            "variances of the landmark must shrink.",
         ),
         Law(
             "sure",
