@@ -209,11 +209,19 @@ def test_of_poses_that_leave_their_set_one_outside_is_shown():
     assert "agrees with every measurement" in case
 
 
-def test_for_a_box_that_is_too_wide_one_wide_side_is_reported():
+def test_for_boxes_that_are_too_wide_the_ratio_that_is_judged_is_reported():
     source = edited("10-narrow", ("heading = np.array([angles[0][0], angles[-1][1]])", "pass"))
     case = " ".join(explained_verdict("10-narrow", source).case.split())
-    numbers = re.search(r"This is x (\S+), y (\S+), the heading (\S+) times as wide", case).groups()
-    assert max(map(float, numbers)) > 1
+    mean, *each, most = re.search(
+        r"ratio is (\S+) \(x (\S+), y (\S+), heading (\S+)\), .* at most (\S+) is", case
+    ).groups()
+    assert float(mean) == pytest.approx(np.mean([float(ratio) for ratio in each]), abs=0.01)
+    assert float(mean) > float(most)
+
+
+def test_an_empty_box_is_reported_as_such():
+    source = edited("10-narrow", ("np.array([x.min(), x.max()", "np.array([x.max(), x.min()"))
+    assert "x_min > x_max" in explained_verdict("10-narrow", source).case
 
 
 def test_results_for_one_robot_do_not_depend_on_the_others():
