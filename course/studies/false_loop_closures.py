@@ -3,16 +3,18 @@ rooms, whose loops graph SLAM without a gate confuses."""
 
 import copy
 from dataclasses import dataclass
+from functools import cached_property
 from unittest import mock
 
 import numpy as np
 
-from course.studies.odometry_graphs import draw_odometry, odometry_graph
+from course.studies.odometry_graphs import draw_odometry, least_squares_problem, odometry_graph
 from slamlab.estimators import loop_closure
 from slamlab.estimators.graph_slam import GraphSlam
 from slamlab.estimators.runner import run
 from slamlab.geometry import between
-from slamlab.posegraph import edge_error
+from slamlab.posegraph import PoseGraph, edge_error
+from slamlab.posegraph.optimisation import optimise
 from slamlab.posegraph.robust_kernels import DCS
 from slamlab.scanmatching import match
 from slamlab.sources.simulated_robot import simulation
@@ -103,13 +105,12 @@ def cost(graph, kernel):
 def anneal(graph, phi, start, factor=4.0):
     """Optimise a graph with DCS while Φ decreases from ``start`` to ``phi``; yield Φ and the
     weights of the edges after each step (graduated non-convexity)."""
-    while True:
-        optimum = graph.optimise(max_iterations=1, kernel=DCS(start))
-        yield start, optimum.weights
-        if start <= phi:
-            break
-        start = max(phi, start / factor)
-    yield start, graph.optimise(kernel=DCS(phi)).weights
+    problem, phis = least_squares_problem(graph, graph.fixed), [start]
+    while phis[-1] > phi:
+        phis.append(max(phi, phis[-1] / factor))
+    for each, iterations in [*((each, 1) for each in phis), (phi, 100)]:
+        graph.poses, optimum = optimise(problem, graph.poses, iterations, kernel=DCS(each))
+        yield each, optimum.weights
 
 
 @dataclass(frozen=True)
@@ -163,10 +164,14 @@ class TwinRooms:
 
     def graph(self, loops, robust=True):
         """Return the odometry graph with some loops, not optimised."""
-        graph = odometry_graph(self.steps, self.robot)
-        for k in loops:
-            graph.add_edge(*self.loops[k][:4], robust=robust)
+        graph = PoseGraph(self._odometry.poses)
+        loops = [self.loops[k]._replace(robust=robust) for k in loops]
+        graph.edges = [*self._odometry.edges, *loops]
         return graph
+
+    @cached_property
+    def _odometry(self):
+        return odometry_graph(self.steps, self.robot)
 
     def close_loops(self, loops, robust=True, kernel=None):
         """Optimise the odometry graph with some loops; return the graph and its Optimum."""

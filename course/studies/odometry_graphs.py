@@ -34,7 +34,8 @@ def least_squares_problem(graph, fixed=()):
     free[list(fixed)] = False
     pairs = np.array([(edge.i, edge.j) for edge in edges])
     z, of_edges = (np.array([edge[k] for edge in edges]) for k in (2, 3))
-    return LeastSquaresProblem(pairs, z, of_edges, np.zeros(len(edges), bool), free)
+    robust = np.array([edge.robust for edge in edges])
+    return LeastSquaresProblem(pairs, z, of_edges, robust, free)
 
 
 def gauss_newton_costs(graph, iterations):
