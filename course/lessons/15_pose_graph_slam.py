@@ -1139,7 +1139,7 @@ views.explore(
     first_phi=slider("first Φ", [11.3, 100, 1000, *(10**k for k in (4, 5, 6, 7, 9))], 10**9),
 )
 
-# %% [markdown] slideshow={"slide_type": "subslide"} answers="15-liars"
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="15-liars"
 # Set the iteration to 0 and press ▶. While all loops have full weight, the map fits the false loops as well;
 # then most right loops lose their weight. Now reduce the first $\Phi$: from which value on is the map right,
 # and at which small value is it wrong again? The largest $\chi^2$ is that of the worst outlier, so an outlier
