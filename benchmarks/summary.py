@@ -36,7 +36,7 @@ CHIEF = (  # what is shown, the peer, and the row's name and reference
     (
         "particle filter, 10 000 particles",
         "a Python loop",
-        "10 000 particles: slamlab",
+        "10000 particles: slamlab",
         "plain Python loop",
     ),
     ("reading the pose graph city10000", "GTSAM", "city10000: reading: slamlab", "GTSAM"),
@@ -66,8 +66,11 @@ def machine():
 
 def chief_rows(rows):
     """Select the chief rows, as rows named for the reader; those that were not measured are left
-    out."""
+    out, and named on stderr."""
     found = {(one["name"], one["reference"]): one for one in rows}
+    for what, peer, name, to in CHIEF:
+        if (name, to) not in found:
+            print(f"not measured: {what}, compared with {peer}", file=sys.stderr)
     chief = [(what, peer, found.get((name, to))) for what, peer, name, to in CHIEF]
     return [
         row(what, one["value"], one["unit"], peer, one["ratio"]) for what, peer, one in chief if one

@@ -11,7 +11,7 @@ ROWS = [
 ]
 
 
-def test_the_table_replaces_the_one_between_the_marks(tmp_path):
+def test_the_table_replaces_the_one_between_the_marks(tmp_path, capsys):
     readme = tmp_path / "README.md"
     readme.write_text(f"before\n{summary.BEGIN}old\n{summary.END}after\n", "utf-8")
     summary.write(ROWS, readme)
@@ -22,6 +22,7 @@ def test_the_table_replaces_the_one_between_the_marks(tmp_path):
     assert summary.machine() in text
     assert "old" not in text
     assert len(summary.chief_rows(ROWS)) == 1
+    assert "not measured: EKF-SLAM, one step, 1000 landmarks" in capsys.readouterr().err
 
 
 def test_a_readme_without_the_marks_is_refused(tmp_path):
