@@ -33,9 +33,20 @@ def _run_filter(functions, inputs):
         for x, u, z in zip(inputs["x"], inputs["u"], inputs["z"], strict=True)
     ]
     if len({(len(x), len(ids)) for x, _, ids in ends}) > 1:
-        raise StudentError("malformed", f"{name}'s map has different sizes in different runs")
+        raise StudentError("malformed", _explain_sizes(name, [ids.tolist() for *_, ids in ends]))
     x, P, ids = map(np.array, zip(*ends, strict=True))
     return {"x": x, "P": P, "ids": ids}
+
+
+def _explain_sizes(name, maps):
+    """Explain why the maps of different runs have different sizes: an id may stand in one twice."""
+    for ids in maps:
+        if twice := [i for k, i in enumerate(ids) if i in ids[:k]]:
+            return (
+                f"{name}'s ids contain {twice[0]:g} twice. Is a landmark new if its measurement is "
+                "rejected?"
+            )
+    return f"{name}'s map has different sizes in different runs"
 
 
 def _one_run(step, name, inputs, x, controls, observations):

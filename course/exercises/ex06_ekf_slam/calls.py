@@ -3,7 +3,7 @@
 import numpy as np
 
 from classroom.exercises.function_calls import FunctionCall, StudentError, to_shaped_array
-from classroom.exercises.function_calls.slam_step import SLAM_STEP, check_estimate
+from classroom.exercises.function_calls.slam_step import SLAM_STEP, check_estimate, filter_call
 
 
 def _call_for_estimates(functions, inputs, added=0):
@@ -46,29 +46,10 @@ def _call_consistency(functions, inputs):
     return {name: np.array(values) for name, values in found.items()}
 
 
-def _call_careful_step(functions, inputs):
-    """Run the filter; explain an id that a step returns twice, so that maps differ in size."""
-    careful_step = functions["careful_step"]
-
-    def step(*arguments):
-        value = careful_step(*arguments)
-        ids = value[2] if isinstance(value, tuple | list) and len(value) == 3 else []
-        ids = np.ravel(ids).tolist()
-        if twice := [i for k, i in enumerate(ids) if i in ids[:k]]:
-            raise StudentError(
-                "malformed",
-                f"careful_step's ids contain {twice[0]} twice. Is a landmark new if its "
-                "measurement is rejected?",
-            )
-        return value
-
-    return SLAM_STEP.run({"careful_step": step}, inputs)
-
-
 CALLS = {
     "06-augment": FunctionCall(("augment",), _call_augment),
     "06-update": FunctionCall(("update",), _call_update),
     "06-slam": SLAM_STEP,
     "06-consistent": FunctionCall(("consistency",), _call_consistency),
-    "06-false-sights": FunctionCall(("careful_step",), _call_careful_step),
+    "06-false-sights": filter_call("careful_step"),
 }
