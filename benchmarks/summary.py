@@ -68,13 +68,13 @@ def chief_rows(rows):
     """Select the chief rows, as rows named for the reader; those that were not measured are left
     out, and named on stderr."""
     found = {(one["name"], one["reference"]): one for one in rows}
+    chief = []
     for what, peer, name, to in CHIEF:
-        if (name, to) not in found:
+        if one := found.get((name, to)):
+            chief.append(row(what, one["value"], one["unit"], peer, one["ratio"]))
+        else:
             print(f"not measured: {what}, compared with {peer}", file=sys.stderr)
-    chief = [(what, peer, found.get((name, to))) for what, peer, name, to in CHIEF]
-    return [
-        row(what, one["value"], one["unit"], peer, one["ratio"]) for what, peer, one in chief if one
-    ]
+    return chief
 
 
 def markdown(rows):
