@@ -1,5 +1,6 @@
 """A degenerate answer earns nothing, whatever law it obeys by chance."""
 
+import itertools
 from dataclasses import replace
 
 import numpy as np
@@ -7,22 +8,22 @@ import pytest
 
 from classroom.exercises import catalogue
 from classroom.exercises.function_calls.run_and_pack import MAIN
-from classroom.exercises.outputs import shapes_of
+from classroom.exercises.outputs import MAX_MAGNITUDE, MAX_ROWS, shapes_of
 from tests.classroom.grading import fake
 
 TASKS = [task for id in catalogue.EXERCISES for task in catalogue.exercise(id).tasks]
+NUMBERS = 0.0, 1.0, -1.0, 1e6, -1e6, 1e3, 5e-324, MAX_MAGNITUDE, -MAX_MAGNITUDE
 COURSE = sum(task.points for task in TASKS)
 SHARE = 0.02  # of the course's points, that all degenerate answers together may earn [1]
 
 
 def filled(task, inputs, values, size=4):
     """Outputs of the shapes that a task asks for; ``values`` makes an array of a shape."""
-    count = min(len(array) for array in inputs.values())
-    shapes = {
-        name: ((count,) if name == "result" else ())
-        + tuple(size if n is None else n for n in shape)
-        for name, shape in shapes_of(task, inputs).items()
-    }
+    count, shapes = min(len(array) for array in inputs.values()), {}
+    for name, shape in shapes_of(task, inputs).items():
+        most = size if sum(n is None for n in shape) == 1 else min(size, 30)
+        shape = tuple(most if n is None else n for n in shape)
+        shapes[name] = (count, *shape) if name == "result" else shape
     return {name: np.asarray(values(shape, inputs), float) for name, shape in shapes.items()}
 
 
@@ -63,11 +64,12 @@ def degenerate_answers(rng):
 @pytest.mark.parametrize("task", TASKS, ids=lambda task: task.id)
 def test_one_number_for_all_earns_nothing(task):
     sets = task.draw_inputs(b"a seed")
-    for value in (0.0, 1.0, -1.0, 1e6):
-        numbers = filled(task, sets[MAIN], lambda shape, _, value=value: np.full(shape, value))
+    is_open = any(None in shape for shape in shapes_of(task, sets[MAIN]).values())
+    for size, value in itertools.product((4, 0, 1, MAX_ROWS)[: 4 if is_open else 1], NUMBERS):
+        numbers = filled(task, sets[MAIN], lambda s, _, value=value: np.full(s, value), size)
         verdict = task.judge(sets, {MAIN: numbers})
-        assert verdict.points == 0, value
-        assert verdict.diagnosis or verdict.problem, value
+        assert verdict.points == 0, (size, value)
+        assert verdict.diagnosis or verdict.problem or size != 4, value
 
 
 @pytest.mark.slow

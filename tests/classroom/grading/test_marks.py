@@ -65,6 +65,14 @@ def test_the_late_penalty_is_a_share_of_the_points_for_each_started_day(policy, 
         ('per_day = 2\n[due]\n"04" = 2026-12-01T12:00:00Z', "a share from 0 to 1"),
         ('per_week = 0.1\n[due]\n"04" = 2026-12-01T12:00:00Z', "setting 'per_week' does not exist"),
         ("[due", "policy.toml: "),
+        *(
+            (f'grace_minutes = {value}\n[due]\n"04" = 2026-12-01T12:00:00Z', "grace_minutes")
+            for value in ("inf", "nan", "-1", "1e300", "true", '"10"')
+        ),
+        *(
+            (f'[due]\n"{id}" = 2026-12-01T12:00:00Z', f"exercise '{id}' does not exist; the exer")
+            for id in ("4", "98", "004", "x")
+        ),
         (None, "No such file"),
     ],
 )
