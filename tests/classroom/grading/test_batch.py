@@ -1,25 +1,19 @@
 """Batch grading: every submission of a class is graded or listed, and results are complete."""
 
-import contextlib
 import json
 import os
-import signal
 import stat
-import subprocess
-import sys
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 
 from classroom.cli import grade
 from classroom.exercises.task import UNCHANGED
-from classroom.grading import judge, sandbox
+from classroom.grading import judge
 from classroom.grading.gradebook import Gradebook
 from slamlab.cli import main
 from tests.classroom.grading import fake
-from tests.classroom.grading.conftest import HTML, lacks, notebook, slamlab, table, workers
-from tests.timeouts import PATIENCE, until
+from tests.classroom.grading.conftest import HTML, notebook, table, workers
 
 
 def command(verb, *arguments):
@@ -234,45 +228,3 @@ def test_a_notebook_that_cannot_be_checked_is_reported_in_one_line(class_folder,
         error = capsys.readouterr().err
         assert name in error
         assert error.count("\n") == 1
-
-
-def grading_of_one_that_never_ends(tmp_path, level):
-    """A running ``slamlab grade`` in which a worker hangs."""
-    folder, temporary = tmp_path / "class", tmp_path / "temporary"
-    folder.mkdir()
-    temporary.mkdir()
-    stays = "while True:\n    try:\n        while True: pass\n    except BaseException: pass"
-    (folder / "hangs_04.ipynb").write_text(notebook(stays, exercise="04"), "utf-8")
-    pipes = {"stdout": subprocess.DEVNULL, "stderr": subprocess.PIPE}
-    words = "grade", folder, "--out", tmp_path / "out", "--isolation", level
-    grading = slamlab(*words, env=os.environ | {"TMPDIR": str(temporary)}, **pipes)
-    # the zygote and the worker; round them two of bubblewrap's own, after those of the probe
-    expected = 2 if level == sandbox.NONE else 4
-    until(lambda: len(processes_of(temporary, "ex04")) >= expected)
-    return grading, temporary
-
-
-def processes_of(folder, word):
-    """Numbers of the processes whose command line names a folder and a word (Linux)."""
-    found = []
-    for path in Path("/proc").glob("[0-9]*/cmdline"):
-        with contextlib.suppress(OSError):  # it has just ended
-            words = path.read_bytes()
-            if os.fsencode(folder) in words and word.encode() in words:
-                found.append(path.parent.name)
-    return found
-
-
-@pytest.mark.slow
-@pytest.mark.skipif(sys.platform != "linux", reason="looks into /proc")
-@pytest.mark.parametrize("level", [sandbox.NONE, sandbox.STRICT])
-@pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP", "SIGKILL"])
-def test_a_killed_grader_leaves_no_worker_running(tmp_path, name, level):
-    if lacks(level):
-        pytest.skip(lacks(level))
-    grading, temporary = grading_of_one_that_never_ends(tmp_path, level)
-    grading.send_signal(getattr(signal, name))
-    _, output = grading.communicate(timeout=PATIENCE)
-    assert b"Traceback" not in output
-    assert grading.returncode == (-signal.SIGKILL if name == "SIGKILL" else 130)
-    until(lambda: not processes_of(temporary, ""))

@@ -19,7 +19,7 @@ from tests.classroom.grading.conftest import notebook, slamlab, workers
 from tests.timeouts import until
 
 SECRET = b"0123456789abcdef"
-HANGS = "while True: pass"
+HANGS = "while True:\n    try:\n        while True: pass\n    except BaseException: pass"
 pytestmark = pytest.mark.skipif(not CAN_FORK, reason="judges are forked on Linux only")
 
 
@@ -90,17 +90,18 @@ def test_a_judge_that_is_killed_ends_the_run_in_a_line(tmp_path):
             list(batch.grade_locally(found, judging))
 
 
-def grade(folder, *words, **more):
-    words = "--out", folder / "out", "--isolation", workers().level, *words
+def grade(folder, *words, level=None, **more):
+    words = "--out", folder / "out", "--isolation", level or workers().level, *words
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
     return slamlab("grade", folder / "class", *words, **pipes, **more)
 
 
-def running(folder):
+def running(folder, level=None):
     """A command that grades by two judges, one of them a notebook that hangs; its processes."""
     words = "--exercise", "04", "--jobs", "2"
-    grading = grade(folder, *words, env=os.environ | {"TMPDIR": str(folder)})
-    forked = 4 if workers().level == sandbox.STRICT else 2  # bubblewrap twice, zygote, worker
+    grading = grade(folder, *words, level=level, env=os.environ | {"TMPDIR": str(folder)})
+    level = level or workers().level
+    forked = 4 if level == sandbox.STRICT else 2  # bubblewrap twice, zygote, worker
     until(lambda: any(len(below(judge)) == forked for judge in judges_of(grading)))
     return grading, below(grading.pid)
 
@@ -111,10 +112,11 @@ def judges_of(grading):
     return [p for p in children(grading.pid) if Path(f"/proc/{p}/cmdline").read_bytes() == called]
 
 
+@pytest.mark.parametrize("level", [None, pytest.param(sandbox.NONE, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("sent", ["SIGKILL", "SIGTERM", "SIGHUP", "SIGINT"])
-def test_no_process_outlives_a_killed_grader(tmp_path, sent):
+def test_no_process_outlives_a_killed_grader(tmp_path, sent, level):
     class_of(tmp_path / "class", *[notebook(HANGS, exercise="04")] * 3)
-    grading, processes = running(tmp_path)
+    grading, processes = running(tmp_path, level)
     grading.send_signal(getattr(signal, sent))
     _, output = grading.communicate()
     assert grading.returncode == (-signal.SIGKILL if sent == "SIGKILL" else 130)
