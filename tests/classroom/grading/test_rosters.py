@@ -9,7 +9,7 @@ from classroom.grading.term.term import load
 from slamlab.cli import main
 from tests.classroom.grading import fake
 from tests.classroom.grading.conftest import notebook
-from tests.classroom.grading.term_folder import attempt, begin, folder, match_students, stored
+from tests.classroom.grading.term_folder import begin, folder, match_students
 
 __all__ = ["begin", "folder"]  # a fixture
 
@@ -58,18 +58,6 @@ def test_a_family_name_that_comes_first_is_found_where_one_student_fits(folder):
         "Jan Eva": "not in the roster: Jan Eva",
     }.items():
         assert match_students(folder, f"{name}/x.ipynb", sheet=False) == [student]
-
-
-def test_students_of_one_name_are_named_with_their_ids(folder, capsys):
-    write(folder, "id,name\ns1,Jan Novák\ns2,Jan Novák\n")
-    names = [f"Jan Novák_{number}_assignsubmission_file/x.ipynb" for number in (7, 8)]
-    found = match_students(folder, *names, "Jan Novák/x.ipynb", sheet=False)
-    assert len(set(found)) == 3, "their files are not attempts of one person"
-    assert all(name.endswith(" is s1 or s2") for name in found)
-    stored(folder, attempt("s1", 8))
-    assert load(folder / "course.toml").roster.not_one("jan novák") == (
-        "'jan novák' is the name of s1 and s2 in the roster; give the id"
-    )
 
 
 def test_a_canvas_download_without_user_numbers_in_the_roster_is_reported(folder, capsys):

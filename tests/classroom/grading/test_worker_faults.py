@@ -89,21 +89,6 @@ def test_deep_trees_are_removed_and_links_out_of_them_are_not_followed(tmp_path)
     assert (kept / "file").read_text() == "x"
 
 
-@pytest.mark.slow
-@posix
-@pytest.mark.parametrize("level", [sandbox.NONE, sandbox.BASIC])
-def test_a_notebook_that_nests_folders_deeply_does_not_end_grading(monkeypatch, tmp_path, level):
-    if lacks(level):
-        pytest.skip(lacks(level))
-    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
-    nests = "import os\nfor _ in range(1500): os.mkdir('d'); os.chdir('d')\n"
-    with WorkerPool(level, warm=False) as pool:
-        for _ in range(2):
-            assert cells_of(nests, by=pool) == {}
-            assert cells_of("import os; 1 / len(os.listdir())", by=pool)[1].startswith("ZeroDiv")
-    assert list(tmp_path.iterdir()) == []
-
-
 def test_libraries_that_solve_an_exercise_are_hidden():
     for id in ("03", "05", "06", "11"):
         assert "filterpy" in catalogue.exercise(id).hides
