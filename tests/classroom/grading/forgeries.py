@@ -1,5 +1,17 @@
 """Attacks that forge points: numbers and arrays that lie, tampered tools, hooks, messages."""
 
+WRITES = """
+import json, os, struct
+def write(data):
+    for fd in range(3, 40):
+        try: os.write(fd, data)
+        except OSError: pass
+def framed(head, arrays=b''):
+    head = json.dumps(head).encode()
+    return struct.pack('<II', len(head), len(arrays)) + head + arrays
+"""
+"""Writes into every pipe, what may be a frame of the worker's."""
+
 FORGERIES = {
     # numbers and arrays that lie
     "equal to everything": """
@@ -80,29 +92,15 @@ for thing in gc.get_objects():
             try: object.__setattr__(thing, name, 99)
             except Exception: pass
 """,
-    "the pipe": """
-import os, struct
-head = b'{"head": {"turn": 2, "points": 99, "full": true}, "arrays": []}'
-for fd in range(3, 40):
-    try: os.write(fd, struct.pack('<II', len(head), 0) + head)
-    except OSError: pass
+    "the pipe": f"""{WRITES}
+write(framed({{'head': {{'turn': 2, 'points': 99, 'full': True}}, 'arrays': []}}))
 """,
-    "noise in the pipe": """
-import os
-for fd in range(3, 40):
-    try: os.write(fd, os.urandom(60000))
-    except OSError: pass
-""",
-    "an answer before the question": """
-import os, struct, json
+    "noise in the pipe": f"{WRITES}\nwrite(os.urandom(60000))\n",
+    "an answer before the question": f"""{WRITES}
 def double(a):
     for turn in range(2, 30):
-        arrays = [['0/result', 'f8', [20]]]
-        head = json.dumps({'head': {'turn': turn}, 'arrays': arrays}).encode()
-        frame = struct.pack('<II', len(head), 160) + head + np.full(20, 3.0).tobytes()
-        for fd in range(3, 40):
-            try: os.write(fd, frame)
-            except OSError: pass
+        head = {{'head': {{'turn': turn}}, 'arrays': [['0/result', 'f8', [20]]]}}
+        write(framed(head, np.full(20, 3.0).tobytes()))
     return -a
 """,
     # what belongs to the notebook
@@ -149,17 +147,13 @@ def watch(frame, event, arg):
     return watch
 sys.settrace(watch); sys.setprofile(watch)
 """,
-    "a thread that answers": """
-import json, os, struct, threading, time
+    "a thread that answers": f"""{WRITES}
+import threading, time
 def shout():
     for _ in range(200):
         for turn in range(2, 12):
-            head = {'head': {'turn': turn, 'full': True}, 'arrays': [['0/result', 'f8', [20]]]}
-            head = json.dumps(head).encode()
-            frame = struct.pack('<II', len(head), 160) + head + np.full(20, 3.0).tobytes()
-            for fd in range(3, 10):
-                try: os.write(fd, frame)
-                except OSError: pass
+            head = {{'head': {{'turn': turn, 'full': True}}, 'arrays': [['0/result', 'f8', [20]]]}}
+            write(framed(head, np.full(20, 3.0).tobytes()))
         time.sleep(0.005)
 threading.Thread(target=shout, daemon=True).start()
 """,
@@ -264,25 +258,18 @@ import json.encoder, json
 json.encoder.encode_basestring_ascii = lambda text: '"points"'
 json.dumps = lambda *a, **k: '{"head": {"turn": 2, "points": 99}, "arrays": []}'
 """,
-    "the last will of an object": """
-import os, struct
+    "the last will of an object": f"""{WRITES}
 class Will:
     def __float__(self): return -3.0
-    def __del__(self):
-        head = b'{"head": {"turn": 3, "points": 99}, "arrays": []}'
-        for fd in range(3, 9):
-            try: os.write(fd, struct.pack('<II', len(head), 0) + head)
-            except OSError: pass
+    def __del__(self): write(framed({{'head': {{'turn': 3, 'points': 99}}, 'arrays': []}}))
 def double(a): return Will()
 """,
-    "a pickle on the wire": """
-import os, pickle, struct
+    "a pickle on the wire": f"""{WRITES}
+import pickle
 class Run:
     def __reduce__(self): return os.system, ('touch /tmp/forged-by-a-student',)
 data = pickle.dumps(Run())
-for fd in range(3, 9):
-    try: os.write(fd, struct.pack('<II', len(data), len(data)) + data + data)
-    except OSError: pass
+write(struct.pack('<II', len(data), len(data)) + data + data)
 """,
     "who reads the questions": """
 import os

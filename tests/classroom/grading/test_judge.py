@@ -259,14 +259,6 @@ def test_without_fork_each_worker_is_a_spawned_interpreter(monkeypatch, tmp_path
     assert list(tmp_path.iterdir()) == []
 
 
-def test_temporary_files_are_removed(monkeypatch, tmp_path):
-    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
-    with WorkerPool(workers().level, warm=False) as own:
-        cells = "open('here', 'w').write('x')", fake.SOLUTION, "import os; os._exit(0)"
-        assert 1 not in judged(*cells, by=own)["cells"]
-    assert list(tmp_path.iterdir()) == []
-
-
 def test_a_fault_of_the_grader_is_not_a_score(monkeypatch, tmp_path):
     file = tmp_path / "anna.ipynb"
     file.write_text(notebook(fake.SOLUTION))
