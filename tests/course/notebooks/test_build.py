@@ -1,4 +1,4 @@
-"""Builder of notebooks: solutions removed, outputs kept, violations refused."""
+"""Builder of notebooks: outputs kept, violations refused."""
 
 import re
 import textwrap
@@ -6,10 +6,9 @@ import textwrap
 import nbformat
 import pytest
 
-from classroom.exercises import catalogue, verdict_text
+from classroom.exercises import catalogue
 from course import build as tool
 from course import source
-from course.solution_cells import STUB, SolutionError, solution_regions, strip_solutions
 from course.source import CourseError
 
 HEAD = """\
@@ -28,6 +27,13 @@ TAIL = """
 ADD = """
 # %% tags=["nbval-check-output"]
 print(2 + 2)
+"""
+VALUE = """
+# %%
+total = -2.5
+
+# %% [markdown]
+# It is {= total:.1f =}, or {= total ** 2:.2f =}.
 """
 
 
@@ -55,92 +61,7 @@ def refused(path, root):
     return str(error.value)
 
 
-# -- solutions
-
-
-def test_a_solution_becomes_a_stub_and_docstring_and_indent_stay():
-    cell = '''\
-def total(numbers):
-    """Their sum."""
-    s = 0
-    for n in numbers:
-        ### BEGIN SOLUTION
-        s += n
-        # done
-        ### END SOLUTION
-    return s'''
-    assert strip_solutions(cell) == (
-        'def total(numbers):\n    """Their sum."""\n    s = 0\n    for n in numbers:\n'
-        f"        {STUB}\n    return s"
-    )
-
-
-@pytest.mark.parametrize(
-    ("cell", "message"),
-    [
-        ("### BEGIN SOLUTION\nx = 1\n### END SOLUTION", "inside a function"),
-        ("class C:\n    ### BEGIN SOLUTION\n    x = 1\n    ### END SOLUTION", "inside a function"),
-        ("def f():\n    ### BEGIN SOLUTION\n    return 1", "without ### END"),
-        ("def f():\n    return 1\n    ### END SOLUTION", "without ### BEGIN"),
-        ("def f():\n    x = 1\n    ### BEGIN SOLUTION\n    ### END SOLUTION", "is empty"),
-        (
-            "def f():\n    ### BEGIN SOLUTION\n    for a in b:\n        c = a\n"
-            "    ### END SOLUTION\n        d = a",
-            "split a statement",
-        ),
-        ("def f():\n    # BEGIN SOLUTION\n    return 1", "write the marks exactly"),
-    ],
-)
-def test_a_solution_that_is_marked_wrongly_is_refused(cell, message):
-    with pytest.raises(SolutionError, match=message):
-        solution_regions(cell)
-
-
-# -- an exercise of the course, whichever it is
-
-
-@pytest.fixture(scope="module")
-def exercise():
-    path = source.numbered("01", "exercises")
-    unsolved, solved = tool.derive(path)
-    return unsolved.notebook, solved.notebook
-
-
-def test_exercise_and_solution_differ_in_solutions_and_checked_outputs_only(exercise):
-    for unsolved, solved in zip(*(notebook.cells for notebook in exercise), strict=True):
-        assert unsolved.id == solved.id
-        if "BEGIN SOLUTION" in solved.source:
-            assert unsolved.source == strip_solutions(solved.source)
-            assert unsolved.metadata.nbgrader.solution
-        else:
-            assert unsolved.source == solved.source
-
-
-def test_a_check_cannot_be_edited_away_and_a_solution_cannot_be_deleted(exercise):
-    for cell in exercise[0].cells:
-        mark = cell.metadata.get("nbgrader")
-        if mark:
-            assert cell.metadata.deletable is False
-            assert cell.metadata.get("editable", True) is not mark.grade
-
-
-@pytest.mark.parametrize("id", catalogue.EXERCISES)
-def test_the_heading_of_a_task_states_what_it_is_worth_and_its_source_does_not(id):
-    task_of = {task.id: task for task in catalogue.exercise(id).tasks}
-    path = source.numbered(id, "exercises")
-    assert not re.search(r"^# ## .* · [\d.]+ points?$", path.read_text("utf-8"), re.MULTILINE)
-    for notebook in (derived.notebook for derived in tool.derive(path)):
-        headings, messages = [], {}
-        for cell in notebook.cells:
-            if cell.cell_type == "markdown":
-                headings += re.findall(r"^## .*", cell.source, re.MULTILINE)
-            elif cell.id in task_of:
-                messages[cell.id] = headings[-1]
-        for task, heading in messages.items():
-            assert heading.endswith(f" · {verdict_text.points(task_of[task].points)}")
-        assert messages.keys() == task_of.keys()
-        worth = [heading for heading in headings if re.search(r" · [\d.]+ points?$", heading)]
-        assert len(worth) == len(messages)
+# -- exercises
 
 
 def test_an_exercise_breaks_the_standards_without_its_checks(root):
@@ -294,20 +215,22 @@ def test_stored_outputs_reveal_nothing_of_the_machine_and_explain_their_widgets(
     assert notebook.cells[2].execution_count == 1
 
 
-def test_a_cell_that_fails_is_reported_with_its_line_and_nothing_is_written(root):
-    path = write(root, "\n# %%\nx = 1\n\n# %%\n1 / 0\n")
-    with pytest.raises(CourseError, match=r"90_sums.py:12: two-and-two-3 failed(.|\n)*ZeroDiv"):
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("\n# %%\nx = 1\n\n# %%\n1 / 0\n", r"py:12: two-and-two-3 failed(.|\n)*ZeroDiv"),
+        (ADD.replace("print(2 + 2)", "x = 2 + 2"), "no output to compare"),
+        (VALUE.replace("total ** 2", "nobody"), r"py:\d+: two-and-two-3 failed(.|\n)*nobody"),
+    ],
+)
+def test_what_cannot_be_run_is_reported_with_its_line_and_nothing_is_written(root, text, message):
+    path = write(root, text)
+    with pytest.raises(CourseError, match=message):
         tool.build(path, root=root)
     assert not (root / "notebooks" / "90_sums.ipynb").exists()
 
 
-def test_a_checked_cell_that_shows_nothing_is_refused(root):
-    path = write(root, ADD.replace("print(2 + 2)", "x = 2 + 2"))
-    with pytest.raises(CourseError, match="no output to compare"):
-        tool.build(path, root=root)
-
-
-def test_a_missing_a_foreign_and_a_cleared_notebook_are_reported(root):
+def test_a_missing_a_foreign_and_a_cleared_notebook_and_an_unknown_name_are_reported(root, capsys):
     path = write(root, ADD)
     assert tool.differences(path, root) == ["notebooks/90_sums.ipynb: is missing"]
     derived = tool.derive(path, root)[0]
@@ -316,22 +239,11 @@ def test_a_missing_a_foreign_and_a_cleared_notebook_are_reported(root):
     assert tool.differences(path, root) == ["notebooks/90_sums.ipynb: was not run"]
     nbformat.write(derived.notebook, root / "notebooks" / "91_mine.ipynb")
     assert tool.orphans(root) == ["notebooks/91_mine.ipynb"]
-
-
-def test_an_unknown_name_is_reported_without_a_traceback(capsys):
     assert tool.main(["99"]) == 1
     assert "99: no such source" in capsys.readouterr().err
 
 
 # -- values in prose
-
-VALUE = """
-# %%
-total = -2.5
-
-# %% [markdown]
-# It is {= total:.1f =}, or {= total ** 2:.2f =}.
-"""
 
 
 def test_values_in_prose_are_computed_where_they_stand_and_kept_without_running(root, monkeypatch):
@@ -356,12 +268,6 @@ def test_a_value_that_ends_a_sentence_begins_no_list(root):
     of_list = VALUE.replace("It is {= total:.1f =}, or", "It is\n# {= total + 3.5:.0f =}. It is")
     tool.build(write(root, of_list), root=root)
     assert stored(root).cells[3].source == "It is\n1\\. It is 6.25."
-
-
-def test_a_value_that_cannot_be_computed_is_reported_with_its_position(root):
-    path = write(root, VALUE.replace("total ** 2", "nobody"))
-    with pytest.raises(CourseError, match=r"90_sums\.py:\d+: two-and-two-3 failed(.|\n)*nobody"):
-        tool.build(path, root=root)
 
 
 # -- equations

@@ -10,12 +10,12 @@ import pytest
 from nbgrader.nbgraderformat import MetadataValidator
 from nbgrader.preprocessors import CheckCellMetadata
 
-from classroom.exercises import catalogue
+from classroom.exercises import catalogue, verdict_text
 from course import large_numbers
 from course.build import differences, orphans
 from course.derive import derive
 from course.question_cells import asks
-from course.solution_cells import solution_lines
+from course.solution_cells import solution_lines, strip_solutions
 from course.source import ID, ROOT, file_name, read, topic
 from tests.course.notebooks import (
     APPENDICES,
@@ -118,6 +118,31 @@ def test_nbgrader_accepts_the_metadata_and_finds_the_points_of_the_tasks(path, f
     assert points == {task.id: task.points for task in exercise.tasks}
     assert all(mark.locked for mark in marks if mark.grade)
     assert any(mark.solution for mark in marks)
+
+
+@each_exercise
+def test_only_solutions_differ_and_checks_stay_and_tasks_state_what_they_are_worth(path):
+    task_of = {task.id: task for task in catalogue.exercise(topic(path)[:2]).tasks}
+    worth, headings = re.compile(r" · [\d.]+ points?$", re.MULTILINE), []
+    assert not re.search(r"^# ## .*" + worth.pattern, path.read_text("utf-8"), re.MULTILINE)
+    unsolved, solved = (derived.notebook for derived in derive(path))
+    for cell, of_solution in zip(unsolved.cells, solved.cells, strict=True):
+        assert cell.id == of_solution.id
+        if "BEGIN SOLUTION" in of_solution.source:
+            assert cell.source == strip_solutions(of_solution.source)
+            assert cell.metadata.nbgrader.solution
+        else:
+            assert cell.source == of_solution.source or cell.id == "my-slam"  # of two files
+        if mark := cell.metadata.get("nbgrader"):
+            assert cell.metadata.deletable is False
+            assert cell.metadata.get("editable", True) is not mark.grade
+        if cell.cell_type == "markdown":
+            headings += re.findall(r"^## .*", cell.source, re.MULTILINE)
+        elif cell.id in task_of:
+            assert headings[-1].endswith(f" · {verdict_text.points(task_of[cell.id].points)}")
+    checked = [cell.id for cell in unsolved.cells if cell.id in task_of]
+    assert set(checked) == task_of.keys()
+    assert sum(bool(worth.search(heading)) for heading in headings) == len(checked)
 
 
 @each_notebook
