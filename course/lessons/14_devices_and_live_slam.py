@@ -1078,7 +1078,7 @@ MAPPED = {
     "without deskewing": {"deskewed": False},
     "odometry 0.1 s late": {"latency": 0.1},
 }
-end_errors = {name: trials.mapping_error(drive, true, **how) for name, how in MAPPED.items()}
+end_errors = trials.mapping_errors(drive, true, MAPPED)
 for name, error in end_errors.items():
     print(f"{name:>22}: position error at the end {error:.1f} cm")
 

@@ -135,19 +135,27 @@ def round_trip(seed):
     return CountedRun(np.array(counts).astype(int).astype(np.int8), np.array(true))
 
 
-def mapping_error(path, true, deskewed=True, latency=0.0):
-    """Map a raw recording by icp; return the position error of the last pose [cm].
+def mapping_errors(path, true, ways):
+    """Map a raw recording by icp in several ways; return {way: position error of the last pose
+    [cm]}.
 
-    ``true`` is the true Trajectory. ``deskewed=False`` keeps the motion distortion of the scans;
-    ``latency`` is how much too late the odometry is stamped [s].
+    ``true`` is the true Trajectory. A way is a dict: ``deskewed=False`` keeps the motion distortion
+    of the scans; ``latency`` is how much too late the odometry is stamped [s].
     """
     source = sources.open(path)
-    pose_at, deskew = source._pose_at, lidar_on_robot.deskew
+    iter(source)  # begins the odometry anew
+    revolutions = list(source._groups())  # the bytes are decoded once
+    source._groups = lambda: iter(revolutions)
+    return {name: _mapping_error(source, true, **way) for name, way in ways.items()}
+
+
+def _mapping_error(source, true, deskewed=True, latency=0.0):
+    deskew, pose_at = lidar_on_robot.deskew, source._odometry.pose_at
     source._pose_at = lambda time: pose_at(time - latency)
     replacement = deskew if deskewed else lambda scan, *_: scan
+    estimator = estimators.make("icp", source)
     with mock.patch.object(lidar_on_robot, "deskew", replacement):
-        estimator = estimators.make("icp", source)
-        for reading in source:
+        for reading in lidar_on_robot.LidarOnRobot.__iter__(source):
             estimator.step(reading)
     return errors(estimator, true.poses[-1])[1]
 
