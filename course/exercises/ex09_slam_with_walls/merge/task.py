@@ -55,8 +55,9 @@ def _equal(rng):
 
 def _far_apart(rng):
     inputs = pairs(rng, 2, 3)
-    inputs["x"][np.arange(2), 3 + 2 * inputs["j"]] += 4.0  # more than π: ρ is not to be wrapped
-    return inputs
+    inputs["x"][np.arange(2), 3 + 2 * inputs["j"]] += 3.3  # more than π: ρ is not to be wrapped
+    larger = np.diag([1.0] * 3 + [4.0, 1.0] * 3)  # so that the opposite normal is improbable
+    return inputs | {"P": larger @ inputs["P"] @ larger}
 
 
 def _uncorrelated(rng):
@@ -160,7 +161,7 @@ MERGE = Task(
         Probe("a map of two walls", lambda rng: pairs(rng, 2, 2)),
         Probe("a map of six walls", lambda rng: pairs(rng, 6, 6)),
         Probe("two equal lines", _equal),
-        Probe("walls four metres apart", _far_apart),
+        Probe("walls 3.3 m apart", _far_apart),
         Probe("uncorrelated errors", _uncorrelated),
     ),
     shapes=lambda inputs: {
