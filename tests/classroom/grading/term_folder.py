@@ -1,7 +1,5 @@
 """The folder of a term: its course file, roster and sheet, and attempts in its gradebook."""
 
-import pytest
-
 from classroom.exercises.verdict import Verdict
 from classroom.grading import submissions
 from classroom.grading.gradebook import Gradebook, default_url
@@ -29,14 +27,6 @@ Participant 501,Ana Kos,ana@uni.hr,,,10,"Wednesday, 2 December 2026, 9:00 AM",-,
 Participant 502,Ben Ivo,ben@uni.hr,,,10,"Wednesday, 2 December 2026, 9:00 AM",-,
 Participant 503,Ćiro,,,,10,-,-,
 """
-
-
-@pytest.fixture
-def folder(tmp_path, monkeypatch):
-    """The folder of a term, from which commands are given."""
-    monkeypatch.chdir(tmp_path)
-    begin(tmp_path)
-    return tmp_path
 
 
 def begin(folder, attempts="last"):

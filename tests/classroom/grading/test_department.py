@@ -14,8 +14,7 @@ from classroom.grading.gradebook import Gradebook, default_url
 from classroom.grading.ledger import chain_verification
 from classroom.grading.records import Record
 from classroom.grading.term import term
-from tests.classroom.grading.conftest import table
-from tests.classroom.grading.test_gradebook import forget, postgres, server  # noqa: F401
+from tests.classroom.grading.conftest import forget, table
 
 DUE = datetime(2025, 12, 1, 11, tzinfo=UTC)
 GRACE, PER_DAY, AT_MOST = timedelta(minutes=10), 0.1, 0.5

@@ -7,18 +7,16 @@ import signal
 import subprocess
 import time
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
-import sqlalchemy as sa
 
 from classroom.exercises.verdict import LawResult, Verdict
-from classroom.grading import database, gradebook_rows
+from classroom.grading import gradebook_rows
 from classroom.grading.gradebook import Gradebook, GradebookError
 from classroom.grading.ledger import chain_verification
 from classroom.grading.records import Record
 from tests.classroom.grading import fake
-from tests.classroom.grading.conftest import notebook, slamlab
+from tests.classroom.grading.conftest import forget, notebook, slamlab
 from tests.timeouts import until
 
 LAW = LawResult("twice", "is twice as large", 0.0, 2.0, 3, 20)
@@ -30,72 +28,6 @@ def record(name="anna.ipynb", sha="a" * 64, student="anna", **more):
     made = {"exercise": "99", "verdicts": (VERDICT,), "sha256": sha, "seed": "b" * 64}
     made |= {"cells": {3: "ValueError: x"}, "notes": ("odd",), "titles": {"99-double": "Double"}}
     return Record(name, student, **(made | more))
-
-
-def programs_of_postgres():
-    found = sorted(Path("/usr/lib/postgresql").glob("*/bin/initdb"))
-    at = shutil.which("initdb") or (found[-1] if found else None)
-    return Path(at).parent if at else None
-
-
-@pytest.fixture(scope="module")
-def server(tmp_path_factory):
-    """A server of PostgreSQL that runs for these tests: its URL, and what starts and stops it."""
-    programs = programs_of_postgres()
-    if programs is None:
-        pytest.skip("no PostgreSQL server here (initdb not found)")
-    folder = tmp_path_factory.mktemp("postgres")
-    # it refuses to run as root
-    user = {"user": 65534, "group": 65534, "extra_groups": []} if os.geteuid() == 0 else {}
-    if user:
-        folder = Path("/tmp") / f"slamlab-postgres-{os.getpid()}"
-        folder.mkdir(mode=0o700)
-        os.chown(folder, 65534, 65534)
-    run = {"check": True, "capture_output": True, "cwd": "/", **user}
-    try:
-        subprocess.run(
-            [programs / "initdb", "-D", folder / "data", "-U", "me", "-A", "trust"], **run
-        )
-        options = f"-k {folder} -c listen_addresses= -c fsync=off"
-        control = [programs / "pg_ctl", "-D", folder / "data", "-w", "-l", folder / "log"]
-        words = {"start": ["-o", options, "start"], "stop": ["-m", "immediate", "stop"]}
-
-        def does(word):
-            subprocess.run([*control, *words[word]], **run)
-
-        does("start")
-    except (OSError, subprocess.CalledProcessError) as error:
-        pytest.skip(f"PostgreSQL does not start here: {getattr(error, 'stderr', error)}")
-    yield f"postgresql+psycopg://me@/postgres?host={folder}", does
-    does("stop")
-    shutil.rmtree(folder, ignore_errors=True)
-
-
-@pytest.fixture(scope="module")
-def postgres(server):
-    return server[0]
-
-
-def forget(url):
-    """Drop the gradebook's tables."""
-    engine = sa.create_engine(url)
-    database.TABLES.drop_all(engine)
-    engine.dispose()
-
-
-@pytest.fixture(params=["sqlite", "postgresql"])
-def url(request, tmp_path):
-    """The address of an empty gradebook, with each database."""
-    if request.param == "sqlite":
-        return f"sqlite:///{tmp_path / 'grades.db'}"
-    forget(request.getfixturevalue("postgres"))
-    return request.getfixturevalue("postgres")
-
-
-@pytest.fixture
-def book(url):
-    with Gradebook(url) as opened:
-        yield opened
 
 
 def test_stored_records_are_read_back_unchanged_and_the_same_content_is_stored_once(book):

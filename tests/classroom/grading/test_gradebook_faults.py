@@ -18,8 +18,8 @@ from classroom.grading.submissions import Submission, SubmissionError
 from slamlab.cli import main
 from slamlab.devices.clock import SimulatedClock
 from tests.classroom.grading import fake
-from tests.classroom.grading.conftest import notebook, posix, workers
-from tests.classroom.grading.test_gradebook import forget, postgres, record, server, url  # noqa: F401
+from tests.classroom.grading.conftest import forget, notebook, posix, workers
+from tests.classroom.grading.test_gradebook import record
 
 
 @pytest.fixture
@@ -75,7 +75,7 @@ def test_a_submission_at_which_a_regrade_fails_keeps_its_mark(tmp_path, book):
     assert ",1,3," in (tmp_path / "grades.csv").read_text("utf-8")
 
 
-def test_concurrent_processes_create_the_tables_once(url):  # noqa: F811
+def test_concurrent_processes_create_the_tables_once(url):
     start = threading.Barrier(8)
 
     def come(number):
@@ -169,7 +169,7 @@ def test_a_secret_is_created_atomically(tmp_path, monkeypatch):
     assert (tmp_path / "secret").stat().st_mode & 0o777 == 0o600
 
 
-def test_lost_connections_to_a_server_are_replaced(postgres):  # noqa: F811
+def test_lost_connections_to_a_server_are_replaced(postgres):
     forget(postgres)
     messages = []
     with Gradebook(postgres) as book:

@@ -12,9 +12,7 @@ from classroom.grading.term import course_file, releases
 from classroom.grading.term.term import load
 from slamlab.cli import main
 from tests.classroom.grading.conftest import table
-from tests.classroom.grading.term_folder import ROSTER, attempt, begin, folder, stored
-
-__all__ = ["begin", "folder"]  # a fixture
+from tests.classroom.grading.term_folder import ROSTER, attempt, stored
 
 COURSE = """
 time_zone = "Europe/Berlin"

@@ -9,7 +9,7 @@ import sqlalchemy as sa
 from classroom.grading import gradebook_rows
 from classroom.grading.gradebook import Gradebook, GradebookError
 from classroom.grading.ledger import chain_merging, chain_verification, chains, contents
-from tests.classroom.grading.test_gradebook import book, postgres, record, server, url  # noqa: F401
+from tests.classroom.grading.test_gradebook import record
 
 
 def at(folder, name="grades"):
@@ -31,7 +31,7 @@ def statement(opened, text, **values):
 
 
 @pytest.mark.slow
-def test_every_attempt_and_change_is_a_permanent_row(book):  # noqa: F811
+def test_every_attempt_and_change_is_a_permanent_row(book):
     filled(book)
     before = book.rows()
     again = replace(record("a.ipynb", student="a"), seconds={"wall": 1.0})
@@ -66,7 +66,7 @@ ALTERED = {
 
 
 @pytest.mark.parametrize("how", ALTERED)
-def test_the_first_row_that_was_altered_is_named(book, how):  # noqa: F811
+def test_the_first_row_that_was_altered_is_named(book, how):
     filled(book)
     change = f"UPDATE ledger SET {ALTERED[how]}"
     statement(book, change if ALTERED[how] else "DELETE FROM ledger WHERE number = 2")
@@ -170,7 +170,7 @@ def test_merging_does_not_restore_erased_data(tmp_path):
             assert chain_verification.find_alterations(opened.rows()) == []
 
 
-def test_contents_are_stored_once_while_an_attempt_names_them(book):  # noqa: F811
+def test_contents_are_stored_once_while_an_attempt_names_them(book):
     data = contents.packed(b"x" * 100)
     name = contents.name_of(data)
     kept = {"kept": {"cells": name}, "contents": {name: data}}
@@ -224,7 +224,7 @@ def test_a_gradebook_without_a_ledger_is_migrated_once(tmp_path):
     assert set(tables) == {"ledger", "contents", "sightings"}
 
 
-def test_attempts_are_ordered_by_their_first_reading(book):  # noqa: F811
+def test_attempts_are_ordered_by_their_first_reading(book):
     first = book.number_submissions([("a", "1"), ("b", "1")])
     later = book.number_submissions([("a", "2"), ("b", "1"), ("c", "1")])
     assert later == {"a": 3, "b": first["b"], "c": 4}

@@ -12,9 +12,7 @@ from classroom.grading.remarks import COMMENT
 from classroom.grading.term.term import load
 from slamlab.cli import main
 from tests.classroom.grading.conftest import table
-from tests.classroom.grading.term_folder import attempt, begin, folder, stored
-
-__all__ = ["begin", "folder"]  # a fixture
+from tests.classroom.grading.term_folder import attempt, begin, stored
 
 OLD = replace(attempt("s1", 5.0, "2026-12-01T09:00:00+00:00"), seen=1)
 NEW = replace(attempt("s1", 8.0, "2026-12-01T10:00:00+00:00", "c"), seen=2)

@@ -11,9 +11,7 @@ from classroom.grading.term import releases
 from slamlab.cli import main
 from tests.classroom.grading import fake
 from tests.classroom.grading.conftest import notebook, table
-from tests.classroom.grading.term_folder import LATER, SHEET, attempt, folder, scores, stored
-
-__all__ = ["folder"]  # a fixture
+from tests.classroom.grading.term_folder import LATER, SHEET, attempt, scores, stored
 
 
 def test_a_release_has_the_forms_of_moodle_and_canvas(folder):

@@ -9,9 +9,7 @@ from classroom.grading.term.term import load
 from slamlab.cli import main
 from tests.classroom.grading import fake
 from tests.classroom.grading.conftest import notebook
-from tests.classroom.grading.term_folder import begin, folder, match_students
-
-__all__ = ["begin", "folder"]  # a fixture
+from tests.classroom.grading.term_folder import match_students
 
 MOODLE = "First name,Last name,ID number,Email address{},Roles\n"
 CANVAS = "Student,ID,SIS User ID,SIS Login ID,Section{}\n"

@@ -7,9 +7,7 @@ import pytest
 from slamlab.cli import main
 from tests.classroom.grading import fake
 from tests.classroom.grading.conftest import notebook, table
-from tests.classroom.grading.term_folder import begin, folder, scores
-
-__all__ = ["begin", "folder"]  # a fixture
+from tests.classroom.grading.term_folder import scores
 
 GRADE = ["grade", "download.zip", "--exercise", "99", "--worksheet", "sheet.csv"]
 OTHER = notebook(fake.SOLUTION, exercise="04")

@@ -14,13 +14,10 @@ from tests.classroom.grading.term_folder import (
     LATER,
     attempt,
     begin,
-    folder,
     match_students,
     scores,
     stored,
 )
-
-__all__ = ["folder"]  # a fixture
 
 
 def test_a_student_without_a_submission_has_a_row(folder):

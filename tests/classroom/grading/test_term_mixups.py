@@ -11,9 +11,7 @@ from classroom.grading.term import exercise_results
 from slamlab.cli import main
 from tests.classroom.grading import fake
 from tests.classroom.grading.conftest import notebook
-from tests.classroom.grading.term_folder import attempt, begin, folder, scores
-
-__all__ = ["begin", "folder"]  # a fixture
+from tests.classroom.grading.term_folder import attempt, scores
 
 
 def ungraded(record, exercise):
