@@ -13,9 +13,10 @@ from slamlab.geometry import compose, wrap
 from slamlab.layers import Ellipses, Points, Poses
 from slamlab.models.parameters import RobotModel
 from slamlab.readings import Observations, Reading
-from slamlab.sources import Source, simulation
+from slamlab.sources import simulation
 from slamlab.sources.arena_runs import ArenaRun
 from slamlab.sources.landmark_runs import LandmarkRun, Loop
+from tests.slamlab.support import Given
 
 BRIEF = Loop(steps=60, landmarks=12)
 
@@ -159,26 +160,10 @@ def test_a_smoothing_outside_its_range_is_refused(smoothing, which):
         EkfSlam(RobotModel(), Loop().sensor, **{which: smoothing})
 
 
-def test_before_anything_is_seen_there_is_a_robot_and_no_landmark():
-    landmarks, around, *_ = EkfSlam(RobotModel(), Loop().sensor).layers()
-    assert landmarks.xy.shape == (0, 2)
-    assert around.covariances.shape == (0, 2, 2)
-
-
-class Blind(Source):
-    name = "blind"
-
-    def __len__(self):
-        return 3
-
-    def __iter__(self):
-        return (Reading(float(k)) for k in range(3))
-
-
 @pytest.mark.parametrize("name", ["mak", "montecarlo", "fastslam", "bor"])
 def test_a_source_with_neither_landmarks_nor_scans_is_refused_in_one_line(name):
     with pytest.raises(ValueError, match=f"blind has neither landmarks nor scans.*{name}"):
-        estimators.make(name, Blind())
+        estimators.make(name, Given([Reading(0.0), Reading(1.0)], name="blind"))
 
 
 def corner(r, bearing, bisector, convex):

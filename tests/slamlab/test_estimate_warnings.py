@@ -20,6 +20,7 @@ from slamlab.filters.ekf_slam_filter import MAK
 from slamlab.simulation.range_scanners import ULTRASONIC
 from slamlab.sources import simulation
 from slamlab.sources.simulated_robot import THESIS_LIDAR
+from tests.slamlab.support import public
 
 WIDER = "wider than the map"
 
@@ -127,12 +128,8 @@ def test_an_estimator_that_observes_enough_reports_nothing(world, name):
     ["icp", "mak", *(pytest.param(name, marks=pytest.mark.slow) for name in ("graph", "walls"))],
 )
 def test_on_the_intel_log_no_estimator_reports_a_warning(name):
-    try:
-        path = sources.recording("intel")
-    except sources.SourceError as error:
-        pytest.skip(str(error))
-    with sources.open(str(path)) as log:
-        assert report(name, log, 450) == ""
+    with sources.open(public("intel")) as log:
+        assert report(name, log, 200) == ""
 
 
 @pytest.mark.slow

@@ -59,13 +59,6 @@ def test_a_matrix_gives_its_pose_back(a):
     assert_same_pose(from_matrix(matrix(a)), a)
 
 
-@given(poses)
-def test_a_pose_matrix_is_rigid(a):
-    rotation = matrix(a)[:2, :2]
-    np.testing.assert_allclose(rotation @ rotation.T, np.eye(2), atol=1e-12)
-    assert np.linalg.det(rotation) == pytest.approx(1)
-
-
 @given(poses, points)
 def test_transforming_points_is_the_matrix_on_column_vectors(pose, point):
     moved = matrix(pose) @ np.append(point, 1)

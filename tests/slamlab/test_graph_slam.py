@@ -5,10 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from slamlab import estimators, sources
+from slamlab import sources
 from slamlab.estimators.graph_slam import GraphSlam
 from slamlab.estimators.loop_closure import match_information
-from slamlab.estimators.runner import run
 from slamlab.geometry import between, compose
 from slamlab.models.parameters import RobotModel
 from slamlab.posegraph import edge_error
@@ -85,17 +84,6 @@ def test_a_tour_ends_near_the_truth_with_the_same_parameters(name):
     slam, truth = toured(name, 1)
     assert errors(slam, truth).max() < 0.06
     assert slam.counts["scans not matched"] == 0
-
-
-def test_it_is_an_estimator_as_the_others_are():
-    source = sources.open("sim:room", np.random.default_rng(0))
-    slam = estimators.make("graph", source)
-    result = run(source, slam)
-    assert np.allclose(result.trajectory.poses[-1], slam.trajectory().poses[-1])
-    assert len(result.trajectory) == len(source)
-    shown = {(type(layer).__name__, layer.name) for layer in slam.layers()}
-    assert {("Points", "naive"), ("Points", "corrected"), ("Poses", "corrected")} <= shown
-    assert "keyframes" in slam.status
 
 
 def test_the_grid_shows_walls_where_they_are():

@@ -1,7 +1,6 @@
 """Every estimator with too little or impossible data continues and reports it."""
 
 from dataclasses import replace
-from functools import cache
 
 import numpy as np
 import pytest
@@ -11,26 +10,12 @@ from slamlab.estimators.estimate_warnings import MIN_STEPS
 from slamlab.simulation import RPLIDAR_A2
 from slamlab.simulation.worlds import World
 from slamlab.sources import simulation
-from slamlab.sources.base import Source
+from tests.slamlab.support import Given
 
 SLAMS = [name for name in estimators.NAMES if name != "odometry"]
 STEPS = 2 * MIN_STEPS
 ROOM = simulation("room", np.random.default_rng(1))
 READINGS = list(ROOM)[:STEPS]
-
-
-class Given(Source):
-    """A source of some readings, with the models of another's robot and sensor."""
-
-    def __init__(self, readings, like=ROOM):
-        super().__init__()
-        self.readings, self.robot, self.sensor, self.name = readings, like.robot, like.sensor, "few"
-
-    def __iter__(self):
-        return iter(self.readings)
-
-    def __len__(self):
-        return len(self.readings)
 
 
 def taken_in(name, readings, like=ROOM):
@@ -97,36 +82,30 @@ def test_an_estimator_that_loses_all_observations_reports_it(name):
     assert taken_in(name, [*READINGS[:MIN_STEPS], *away]).warnings
 
 
-def with_step(odometry):
-    """The readings, with some odometry in one of them."""
+def with_steps(*steps):
+    """The readings, with some odometry, or none, in every fifth of them from the 20th on."""
     readings = list(READINGS)
-    readings[25] = replace(readings[25], odometry=np.array(odometry, float))
+    for k, step in zip(range(20, STEPS, 5), steps, strict=False):
+        step = None if step is None else np.array(step, float)
+        readings[k] = replace(readings[k], odometry=step)
     return readings
 
 
-@cache
-def without_a_step(name):
-    """Poses of an estimator whose reading there has no odometry."""
-    readings = list(READINGS)
-    readings[25] = replace(readings[25], odometry=None)
-    return taken_in(name, readings).trajectory().poses
-
-
-@pytest.mark.parametrize("by", [[1e3, -5e2, 2.0], [40.0, 0.0, 0.0], [np.nan] * 3])
 @pytest.mark.parametrize("name", estimators.NAMES)
-def test_a_jump_of_the_odometry_is_left_out_and_counted(name, by):
-    slam = taken_in(name, with_step(by))
-    np.testing.assert_array_equal(slam.trajectory().poses, without_a_step(name))
-    assert slam.counts.total() >= 1 and "1 odometry " in slam.status
+def test_a_jump_of_the_odometry_is_left_out_and_counted(name):
+    slam = taken_in(name, with_steps([1e3, -5e2, 2.0], [np.nan] * 3, [40.0, 0.0, 0.0]))
+    without = taken_in(name, with_steps(None, None, None))
+    np.testing.assert_array_equal(slam.trajectory().poses, without.trajectory().poses)
+    assert slam.counts.total() >= 3
+    assert "2 odometry jumps" in slam.status and "1 odometry increments not" in slam.status
 
 
-@pytest.mark.parametrize("by", [[2.0, 0.0, 0.0], [0.0, 0.0, 40.0]])
 @pytest.mark.parametrize("name", estimators.NAMES)
-def test_a_long_step_or_many_turns_at_once_break_nothing(name, by):
-    taken_in(name, with_step(by))
+def test_a_long_step_or_many_turns_at_once_break_nothing(name):
+    taken_in(name, with_steps([2.0, 0.0, 0.0], [0.0, 0.0, 40.0]))
 
 
 def test_odometry_alone_beside_a_run_leaves_out_the_same_jumps():
-    source = Given(with_step(np.full(3, np.nan)))
+    source = Given(with_steps(np.full(3, np.nan)), ROOM)
     result = estimators.run(source, estimators.DeadReckoning())
     np.testing.assert_array_equal(result.naive.poses, result.trajectory.poses)

@@ -8,6 +8,7 @@ import pytest
 from slamlab import sources
 from slamlab.estimators.odometry_check import OdometryCheck
 from slamlab.sources.calibration_overrides import CalibrationOverrides, OverriddenSource
+from tests.slamlab.support import Given
 
 ROOM = sources.open("sim:room", np.random.default_rng(5))
 READINGS = list(ROOM)
@@ -69,12 +70,8 @@ def test_right_odometry_is_not_suspected():
     ],
 )
 def test_a_source_read_as_advised_is_as_it_should_have_been(changed, how):
-    class Changed(sources.Source):
-        def __iter__(self):
-            return map(changed, READINGS)
-
-    for found, reading in zip(
-        OverriddenSource(Changed(), CalibrationOverrides(**how)), READINGS, strict=True
-    ):
+    source = Given(list(map(changed, READINGS)))
+    as_advised = OverriddenSource(source, CalibrationOverrides(**how))
+    for found, reading in zip(as_advised, READINGS, strict=True):
         np.testing.assert_allclose(found.odometry, reading.odometry, atol=1e-12)
         np.testing.assert_allclose(found.scan.points(), reading.scan.points(), atol=1e-12)

@@ -8,9 +8,9 @@ from slamlab.estimators import make
 from slamlab.estimators.runner import run
 from slamlab.geometry import compose
 from slamlab.layers import Points
-from slamlab.sources import SourceError
 from slamlab.sources.breezyslam import TICKS_PER_TURN, WHEEL_BASE, WHEEL_RADIUS
 from slamlab.sources.public_datasets import RECORDINGS
+from tests.slamlab.support import public
 
 
 def breezy_lines(ticks):
@@ -74,10 +74,8 @@ NO_LOGS = "intel-relations", "victoria-park"  # recordings without readings
 
 @pytest.mark.parametrize("name", [n for n in RECORDINGS if n not in NO_LOGS and ".g2o" not in n])
 def test_every_recording_opens_by_its_name(name):
-    try:
-        source = sources.open(name)
-    except SourceError as error:
-        pytest.skip(str(error))
+    public(name)
+    source = sources.open(name)
     first = next(iter(source))
     assert len(source) > 5 and first.scan.valid.sum() > 100
 
@@ -85,10 +83,7 @@ def test_every_recording_opens_by_its_name(name):
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", ["icp", "graph"])
 def test_a_matched_breezyslam_log_sees_its_walls_more_sharply_than_odometry_does(kind):
-    try:
-        source = sources.open("exp1")
-    except SourceError as error:
-        pytest.skip(str(error))
+    source = sources.open(public("exp1"))
     result = run(source, make(kind, source))
     cells = {
         layer.name: len(np.unique(np.round(layer.xy / 0.05), axis=0))

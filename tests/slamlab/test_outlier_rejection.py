@@ -12,13 +12,7 @@ from slamlab.geometry import between, compose
 from slamlab.posegraph import PoseGraph, edge_error
 from slamlab.posegraph.marginal_covariances import leave_one_out
 from slamlab.posegraph.robust_kernels import DCS, PHI, Cauchy, Huber, Truncated
-from tests.slamlab.square_tour import (
-    INFORMATION,
-    SIDE,
-    SIGMA,
-    largest_deviation,
-    square_tour,
-)
+from tests.slamlab.square_tour import INFORMATION, SIDE, SIGMA, largest_deviation, square_tour
 
 
 @pytest.mark.parametrize("kind", [Huber, Cauchy, DCS, Truncated])

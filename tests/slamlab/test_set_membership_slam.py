@@ -77,12 +77,6 @@ def test_it_draws_the_landmarks_boxes_and_the_robots_and_the_track():
     assert "landmarks" in slam.status
 
 
-def test_before_anything_is_seen_there_is_a_robot_and_no_landmark():
-    landmarks, around, *_ = SetMembershipSlam(RobotModel(), Loop().sensor).layers()
-    assert landmarks.xy.shape == (0, 2)
-    assert around.rows.shape == (0, 4)
-
-
 def test_it_takes_the_corners_of_scans_where_no_landmark_is_named():
     source = simulation("polygon", np.random.default_rng(0))
     slam = run(source, estimators.make("bor", source)).estimator

@@ -9,25 +9,21 @@ from slamlab.geometry import compose
 from slamlab.simulation import worlds
 from slamlab.simulation.worlds.world import World
 from slamlab.sources.simulated_robot import POLYGON_TRUE_STEPS, ROUTES, turn_then_drive
+from tests.slamlab.support import refuses
 
 ALL_ROUND = np.linspace(-np.pi, np.pi, 720, endpoint=False)
 
 
-@pytest.mark.parametrize(
-    ("walls", "circles", "message"),
-    [
-        ([[0, 0, 1, 0], [0, 0, np.nan, 1]], [], "walls: row 1 contains a number that is not fin"),
-        ([[0, 0, 1]], [], r"walls has the shape \(1, 3\); use rows x1 y1 x2 y2"),
-        ([0, 0, 1, 0], [], r"walls has the shape \(4,\)"),
-        ([[0, 0, 1, 0], [1, 2, 1, 2]], [], "walls: row 1 has no length"),
-        ([["a", 0, 1, 0]], [], "walls is not a table of numbers"),
-        ([[0, 0, 1, 0], [0, 0]], [], "walls is not a table of numbers"),
-        ([], [[0, 0, 0]], "circles: row 0 must have a radius greater than zero"),
-    ],
+test_a_world_that_is_invalid_is_refused_with_its_row = refuses(
+    lambda rows: World(*rows),
+    (([[0, 0, 1, 0], [0, 0, np.nan, 1]], []), "walls: row 1 contains a number that is not fin"),
+    (([[0, 0, 1]], []), r"walls has the shape \(1, 3\); use rows x1 y1 x2 y2"),
+    (([0, 0, 1, 0], []), r"walls has the shape \(4,\)"),
+    (([[0, 0, 1, 0], [1, 2, 1, 2]], []), "walls: row 1 has no length"),
+    (([["a", 0, 1, 0]], []), "walls is not a table of numbers"),
+    (([[0, 0, 1, 0], [0, 0]], []), "walls is not a table of numbers"),
+    (([], [[0, 0, 0]]), "circles: row 0 must have a radius greater than zero"),
 )
-def test_a_world_that_is_invalid_is_refused_with_its_row(walls, circles, message):
-    with pytest.raises(ValueError, match=message):
-        World(walls, circles)
 
 
 def test_a_world_keeps_a_copy_that_cannot_be_written_to():

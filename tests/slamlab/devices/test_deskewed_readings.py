@@ -171,20 +171,6 @@ def test_a_truncated_recording_is_read_up_to_its_end_and_reported(drive, tmp_pat
         sources.open(torn)
 
 
-def test_a_recording_is_converted_and_run_as_any_log(drive, tmp_path, capsys):
-    log = tmp_path / "a.log"
-    assert main(["convert", str(drive), str(log)]) == 0
-    direct, converted = list(sources.open(drive)), list(sources.open(log))
-    for a, b in zip(direct, converted, strict=True):
-        assert a.time == b.time
-        np.testing.assert_array_equal(a.odometry, b.odometry)
-        np.testing.assert_array_equal(a.scan.ranges, b.scan.ranges)
-    assert main(["run", str(drive), "--estimator", "icp", "--out", str(tmp_path / "out")]) == 0
-    output = capsys.readouterr().out
-    assert " mapped" in output  # the estimator's own words
-    assert (tmp_path / "out" / "map.png").exists()
-
-
 def test_revolutions_of_a_recording_are_merged(drive, tmp_path):
     assert main(["run", str(drive), "--merge", "4", "--out", str(tmp_path)]) == 0
     frames = json.loads((tmp_path / "summary.json").read_text())["frames"]

@@ -6,22 +6,18 @@ import numpy as np
 import pytest
 
 from slamlab.devices.clock import SimulatedClock
-from slamlab.devices.emir import Calibration, Emir
+from slamlab.devices.emir import Calibration
 from slamlab.devices.emir.wheel_odometry import Odometry
 from slamlab.devices.emulator.emulated_robot import COUNT_SIZE
-from slamlab.devices.emulator.in_memory_emulators import InMemoryEmulators
 from slamlab.devices.emulator.synthetic_recording import record_synthetic_run
 from slamlab.devices.errors import PortError
 from slamlab.devices.recording import load
 from slamlab.devices.recording.decoding import revolutions, statuses
-from slamlab.devices.recording.playback import playback
-from slamlab.devices.rplidar import RPLidar
 from slamlab.files import SourceError
 from slamlab.geometry import between, compose
 from slamlab.simulation import worlds
 from slamlab.sources import emulated_devices
 from tests.property_testing import assert_same_pose
-from tests.timeouts import PATIENCE
 
 COURSE = [(0.5, 0, 0), (1.5, 50, 0), (1.0, 0, 50), (1.0, 30, 20)]
 
@@ -125,13 +121,3 @@ def test_a_synthetic_recording_has_the_requested_scan_mode(tmp_path, mode, point
     record_synthetic_run(path, worlds.polygon(), rng, [(0.5, 0, 0)], mode)
     found = list(revolutions(load(tmp_path / "drive")))
     assert abs(np.median([len(turn) for turn in found]) - points) <= 2
-
-
-def test_drivers_find_their_answers_when_a_rehearsed_drive_is_replayed(tmp_path):
-    rehearsed(tmp_path / "drive")
-    clock = SimulatedClock()
-    found = InMemoryEmulators(playback(load(tmp_path / "drive")), clock)
-    shared = {"opener": found.opener, "clock": clock}
-    with Emir("emir", **shared) as emir, RPLidar("lidar", **shared) as lidar:
-        assert lidar.revolution(timeout=PATIENCE).complete
-        assert emir.wait() is not None

@@ -7,18 +7,9 @@ import pytest
 
 from slamlab import devices as drivers
 from slamlab import sources
-from slamlab.devices.clock import SimulatedClock
-from slamlab.devices.emir import Calibration, Emir
-from slamlab.devices.emulator.emir_emulator import EmirEmulator
-from slamlab.devices.emulator.emulated_robot import COUNT_SIZE, EmulatedRobot
-from slamlab.devices.emulator.in_memory_emulators import InMemoryEmulators
-from slamlab.devices.emulator.motion_distortion import MovingLidar
-from slamlab.devices.emulator.rplidar_emulator import RPLidarEmulator
 from slamlab.devices.errors import ConnectionLost
-from slamlab.devices.rplidar import RPLidar
-from slamlab.geometry import between, compose
+from slamlab.geometry import compose
 from slamlab.models.parameters import SensorModel
-from slamlab.simulation import worlds
 from slamlab.sources import SourceError
 from slamlab.sources import live_devices as source
 from tests.property_testing import assert_same_pose
@@ -118,31 +109,3 @@ def test_the_robot_is_closed_if_the_lidar_does_not_open(monkeypatch):
     with pytest.raises(SourceError, match=r"the port .* does not exist"):
         sources.open("devices:/dev/ttyNOSUCH0,e")
     assert emir.closed
-
-
-def test_live_the_readings_follow_the_robot():
-    rng, clock = np.random.default_rng(0), SimulatedClock()
-    body = EmulatedRobot(worlds.by_name("room"), rng)
-    machines = {"e": EmirEmulator(body), "l": RPLidarEmulator(MovingLidar(body, rng))}
-    opener = InMemoryEmulators(machines, clock).opener
-    counts = Calibration(path=COUNT_SIZE[0], angle=COUNT_SIZE[1])
-    emir = Emir("e", opener=opener, calibration=counts, clock=clock)
-    start, believed = body.pose, np.zeros(3)
-    with source.LiveDevices(RPLidar("l", opener=opener, clock=clock), emir) as devices:
-        commands = {3: (0.3, 0.5), 15: (0.0, 0.0)}
-        for k, reading in enumerate(devices):
-            believed = compose(believed, reading.odometry)
-            if k in commands:
-                devices.drive(commands[k])
-            if k == 15:
-                stopped = reading.time
-            if k > 15 and reading.time > stopped + 1.0:
-                break
-        moved = between(start, body.pose)
-        assert np.hypot(*moved[:2]) > 0.1
-        assert_same_pose(believed, moved, 0.1)  # slip, and whole counts
-        scan = reading.scan
-        ranges = body.world.cast(body.pose[:2], body.pose[2] + scan.angles)
-        assert np.nanmedian(np.abs(ranges - scan.ranges)) < 0.02
-    assert not body._speeds.any()
-    assert machines["l"].requests[-1][1] == b"\0\0"  # PWM 0

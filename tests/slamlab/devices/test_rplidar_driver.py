@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
+from slamlab.devices.emulator.lidar_models import MODELS
 from slamlab.devices.emulator.serial_line import Faults
-from slamlab.devices.errors import ConnectionLost, DataTimeout, DeviceNotResponding, UnsupportedMode
+from slamlab.devices.errors import ConnectionLost, DataTimeout, DeviceNotResponding
 from slamlab.devices.rplidar.requests import Command
 from slamlab.devices.rplidar.responses import AnswerType, Health
 from tests.slamlab.devices.byte_streams import room, stream
@@ -38,11 +39,19 @@ def test_a_spin_up_is_waited_for_unless_scanning_is_forced(spin_up, force):
         assert (Command.FORCE_SCAN in setup.commands()) == force
 
 
-@pytest.mark.parametrize("old", [AnswerType.SCAN, AnswerType.ULTRA])
-def test_the_stream_of_a_crashed_program_is_stopped_and_drained(old):
-    setup = Bench(scanning=old)
+@pytest.mark.parametrize(
+    ("model", "old"),
+    [
+        ("a2m8", AnswerType.SCAN),
+        ("a2m8", AnswerType.ULTRA),
+        ("s2", MODELS["s2"].modes[-1].answer_type),
+    ],
+)
+def test_the_stream_of_a_crashed_program_is_stopped_and_drained(model, old):
+    setup = Bench(model, scanning=old)
     setup.machine.feed(b"", 99.5)  # half a second of it stands in the buffers
     with setup.lidar() as lidar:
+        assert lidar.baud == MODELS[model].baud
         assert setup.commands()[:2] == [Command.STOP, Command.GET_INFO]
         assert_right(lidar.revolution())
 
@@ -80,13 +89,6 @@ def test_a_mode_that_does_not_begin_is_replaced_by_the_standard_scan():
         with pytest.raises(DeviceNotResponding) as refused:
             lidar.start("Boost")
         assert_helps(refused.value)
-
-
-def test_an_unknown_mode_is_refused_with_the_available_ones():
-    with Bench().lidar() as lidar, pytest.raises(UnsupportedMode) as refused:
-        lidar.start("Sensitivity")
-    assert_helps(refused.value)
-    assert "Standard, Express, Boost" in str(refused.value)
 
 
 def test_a_lidar_in_protection_stop_is_reset_once_and_its_boot_text_is_dropped():

@@ -8,10 +8,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from slamlab.files import SourceError
 from slamlab.geometry import between
 from slamlab.posegraph import g2o
-from slamlab.sources.public_datasets import recording
 from tests.slamlab.formats.graph_factors import (
     GPS,
     POINTS,
@@ -26,6 +24,7 @@ from tests.slamlab.formats.graph_factors import (
     spread,
     text,
 )
+from tests.slamlab.support import public
 
 ONE_GPS = replace(UNFIXED, priors=[(3, np.array([7.0, -2.0]), spread(RNG, 2))])
 COMPASS = replace(
@@ -205,11 +204,7 @@ def test_poses_are_initialised_whatever_the_scale_of_the_information(tmp_path):
 
 @pytest.mark.parametrize("name", [*PUBLIC, pytest.param("city10000", marks=pytest.mark.slow)])
 def test_public_graphs_reach_the_optimum_that_others_reach(name):
-    try:
-        path = recording(f"{name}.g2o")
-    except SourceError as missing:
-        pytest.skip(str(missing))
-    graph, notes = report(path)
+    graph, notes = report(public(f"{name}.g2o"))
     optimum = graph.optimise()
     assert notes == [] and optimum.converged
     assert optimum.chi2 == pytest.approx((PUBLIC | {"city10000": 511.99})[name], abs=0.01)

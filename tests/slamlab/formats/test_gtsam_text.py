@@ -5,8 +5,8 @@ import gzip
 import numpy as np
 import pytest
 
-from slamlab import sources
 from slamlab.sources import SourceError, gtsam_text
+from tests.slamlab.support import public
 
 GOOD = """# a comment
 ODOMETRY 0 1 0.5 -0.1 0.02 1e-4 1e-6 2e-6 4e-6 3e-7 9e-6
@@ -60,10 +60,6 @@ def test_an_empty_and_a_truncated_file_are_refused(tmp_path):
 
 
 def test_victoria_park_has_its_poses_and_trees():
-    try:
-        path = sources.recording("victoria-park")
-    except SourceError as missing:
-        pytest.skip(str(missing))
-    measurements = gtsam_text.load(path)
+    measurements = gtsam_text.load(public("victoria-park"))
     trees = [each.j for each in measurements if each.of_landmark]
     assert (len(measurements) - len(trees), len(trees), len(set(trees))) == (6968, 3640, 151)

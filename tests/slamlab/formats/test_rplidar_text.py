@@ -11,6 +11,7 @@ from slamlab.deskewing import deskew_by_velocity
 from slamlab.geometry import compose, transform
 from slamlab.sources import SourceError
 from tests.slamlab.formats.room_runs import assert_read_rightly, distances_to_walls, drive, ranges
+from tests.slamlab.support import public
 
 TURNS = 12
 DRIVE = drive(count=TURNS, step=0.1, begin=0.0)  # at the rate that is assumed of a lidar
@@ -272,9 +273,6 @@ def test_text_that_cannot_be_read_is_refused_with_its_reason(tmp_path, kind):
 
 @pytest.mark.parametrize(("name", "turns"), [("1", 8), ("2", 22), ("3", 19)])
 def test_the_recordings_of_an_a2_have_their_revolutions(name, turns):
-    try:
-        source = sources.open(f"rplidar-a2-{name}")
-    except SourceError as error:
-        pytest.skip(str(error))
+    source = sources.open(public(f"rplidar-a2-{name}"))
     assert len(source) == turns and not source.damage
     assert all(355 < len(r.scan.ranges) < 540 for r in source)
