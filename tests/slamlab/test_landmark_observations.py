@@ -51,7 +51,7 @@ def visible_corners(world, scanner, pose):
 
 @pytest.fixture(scope="module")
 def found_corners():
-    """Return for three laps errors and R of corners, and counts of false, found and visible ones."""
+    """Three laps: errors and R of corners, and counts of false, found and visible ones."""
     errors, R, false, found, ought = [], [], 0, 0, 0
     for seed in range(3):
         source, rng = ArenaRun(RNG(seed), laps=1), RNG(seed)

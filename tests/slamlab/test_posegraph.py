@@ -11,8 +11,8 @@ from scipy.optimize import least_squares
 from slamlab.geometry import between, compose
 from slamlab.posegraph import PoseGraph
 from tests.property_testing import assert_same_pose, poses
-from tests.slamlab.support import refuses
 from tests.slamlab.square_tour import INFORMATION, largest_deviation, square_tour, whitened
+from tests.slamlab.support import refuses
 
 
 @given(st.integers(0, 10**6))

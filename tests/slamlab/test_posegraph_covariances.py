@@ -6,8 +6,8 @@ from scipy.stats import chi2
 
 from slamlab.geometry import between, compose, wrap
 from slamlab.posegraph import PoseGraph, edge_error, edge_jacobians
-from tests.slamlab.support import refuses
 from tests.slamlab.square_tour import INFORMATION, SIDE, SIGMA, square_tour, whitened
+from tests.slamlab.support import refuses
 
 
 @pytest.mark.slow
