@@ -40,22 +40,9 @@ def drift(n, d, sigma):
         return 0.0
     return sigma * d * ((n - 1) * n * (2 * n - 1) / 6) ** 0.5
 
-# %% right: a loop over the errors
-def drift(n, d, sigma):
-    var = 0.0
-    for i in range(1, n + 1):
-        sideways = (n - i) * d * sigma
-        var += sideways ** 2
-    return np.sqrt(var)
-
 # %% right: the norm of a vector
 def drift(n, d, sigma):
     return float(np.linalg.norm(sigma * d * np.arange(n - 1, -1, -1)))
-
-# %% right: each robot's end as a matrix of errors
-def drift(n, d, sigma):
-    A = np.tril(np.ones((n, n)), -1)
-    return float(sigma * d * np.sqrt(np.sum(A.sum(axis=0) ** 2)))
 
 # %% wrong: one constant error: n-1 steps of sigma
 def drift(n, d, sigma):

@@ -73,16 +73,6 @@ def miss(poses, length_error, heading_error, robots=200):
     along, across = lengths * np.cos(headings), lengths * np.sin(headings)
     return [along.sum(axis=1).std(), across.sum(axis=1).std()]
 
-# %% right: each error's lever by a loop, sums of squares by hand
-def miss(poses, length_error, heading_error):
-    vx = vy = 0.0
-    xe, ye = poses[-1][0], poses[-1][1]
-    for k in range(1, len(poses)):
-        dx, dy = poses[k][0] - poses[k - 1][0], poses[k][1] - poses[k - 1][1]
-        vx += (length_error * dx) ** 2 + (heading_error * (ye - poses[k][1])) ** 2
-        vy += (length_error * dy) ** 2 + (heading_error * (xe - poses[k][0])) ** 2
-    return vx ** 0.5, vy ** 0.5
-
 # %% right: a loop over the errors
 def miss(poses, length_error, heading_error):
     n = len(poses) - 1
@@ -96,17 +86,6 @@ def miss(poses, length_error, heading_error):
         vx += (heading_error * (ey - poses[k, 1])) ** 2
         vy += (heading_error * (ex - poses[k, 0])) ** 2
     return np.array([np.sqrt(vx), np.sqrt(vy)])
-
-# %% right: covariance recursion over the steps
-def miss(poses, length_error, heading_error):
-    P = np.zeros((3, 3))
-    for before, after in zip(poses[:-1], poses[1:]):
-        dx, dy = after[:2] - before[:2]
-        F = np.array([[1, 0, -dy], [0, 1, dx], [0, 0, 1.0]])
-        G = np.array([dx, dy, 0])
-        P = F @ P @ F.T + length_error ** 2 * np.outer(G, G)
-        P[2, 2] += heading_error ** 2
-    return np.sqrt(np.diag(P)[:2])
 
 # %% right: one matrix of all influences
 def miss(poses, length_error, heading_error):

@@ -64,17 +64,6 @@ def next_pose(pose, step):
     new = (th + step[2] + np.pi) % (2 * np.pi) - np.pi
     return np.array([p[0], p[1], new])
 
-# %% right: complex numbers
-def next_pose(pose, step):
-    turn = np.exp(1j * pose[2])
-    z = complex(pose[0], pose[1]) + turn * complex(step[0], step[1])
-    return np.array([z.real, z.imag, np.angle(turn * np.exp(1j * step[2]))])
-
-# %% right: complex numbers
-def next_pose(pose, step):
-    z = complex(pose[0], pose[1]) + complex(step[0], step[1]) * np.exp(1j * pose[2])
-    return np.array([z.real, z.imag, np.angle(np.exp(1j * (pose[2] + step[2])))])
-
 # %% wrong: into an array of whole numbers
 def next_pose(pose, step):
     new = np.zeros(3, dtype=int)

@@ -47,14 +47,6 @@ def seen_from(a, b):
     from slamlab.geometry import between
     return between(a, b)
 
-# %% right: homogeneous matrices, the first one inverted
-def seen_from(a, b):
-    def T(p):
-        return np.array([[np.cos(p[2]), -np.sin(p[2]), p[0]],
-                         [np.sin(p[2]), np.cos(p[2]), p[1]], [0, 0, 1]])
-    M = np.linalg.inv(T(a)) @ T(b)
-    return [M[0, 2], M[1, 2], np.arctan2(M[1, 0], M[0, 0])]
-
 # %% right: complex numbers: (b - a) divided by the direction of a
 def seen_from(a, b):
     way = complex(b[0] - a[0], b[1] - a[1]) * np.exp(-1j * a[2])
@@ -67,16 +59,6 @@ def seen_from(a, b):
     ahead, left = R.T @ (b[:2] - a[:2])
     turn = (b[2] - a[2] + np.pi) % (2 * np.pi) - np.pi
     return np.array([ahead, left, turn])
-
-# %% right: inverse of homogeneous matrices
-def matrix(p):
-    c, s = np.cos(p[2]), np.sin(p[2])
-    return np.array([[c, -s, p[0]], [s, c, p[1]], [0, 0, 1]])
-
-
-def seen_from(a, b):
-    M = np.linalg.inv(matrix(a)) @ matrix(b)
-    return np.array([M[0, 2], M[1, 2], np.arctan2(M[1, 0], M[0, 0])])
 
 # %% wrong: subtracts in place, changes b
 def seen_from(a, b):

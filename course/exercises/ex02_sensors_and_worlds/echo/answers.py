@@ -147,31 +147,6 @@ def echo(p, phi, half, walls):
             found += [ray_wall(p, phi - half, wall), ray_wall(p, phi + half, wall)]
     return min(found)
 
-# %% right: cuts each wall down to the cone by its two half planes, then nearest place of what is left
-def echo(p, phi, half, walls):
-    best = np.inf
-    for x1, y1, x2, y2 in walls:
-        a = np.array([x1 - p[0], y1 - p[1]])
-        w = np.array([x2 - x1, y2 - y1])
-        low, high = 0.0, 1.0
-        for normal in (
-            np.array([-np.sin(phi - half), np.cos(phi - half)]),  # left of the right rim
-            np.array([np.sin(phi + half), -np.cos(phi + half)]),  # right of the left rim
-        ):
-            at, slope = normal @ a, normal @ w  # at + t slope >= 0
-            if slope == 0:
-                if at < 0:
-                    high = -1.0
-            elif slope > 0:
-                low = max(low, -at / slope)
-            else:
-                high = min(high, -at / slope)
-        if low > high:
-            continue
-        t = min(max(-(a @ w) / (w @ w), low), high)
-        best = min(best, np.linalg.norm(a + t * w))
-    return best
-
 # %% wrong: two hundred beams into the cone
 def echo(p, phi, half, walls):
     beams = np.linspace(phi - half, phi + half, 200)

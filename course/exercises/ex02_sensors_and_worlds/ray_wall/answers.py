@@ -49,16 +49,6 @@ def ray_wall(p, phi, wall):
     t = (a + share * (b - a)) @ u
     return np.inf if t < 0 else t
 
-# %% right: two by two system, its determinant tested
-def ray_wall(p, phi, wall):
-    a, b = np.array(wall[:2]), np.array(wall[2:])
-    u = np.array([np.cos(phi), np.sin(phi)])
-    M = np.column_stack([u, a - b])
-    if abs(np.linalg.det(M)) < 1e-9 * np.linalg.norm(b - a):
-        return np.inf
-    r, tau = np.linalg.solve(M, a - p)
-    return float(r) if r >= 0 and 0 <= tau <= 1 else float("inf")
-
 # %% right: turns the wall into the beam's frame and looks where it crosses the axis
 def ray_wall(p, phi, wall):
     c, s = np.cos(phi), np.sin(phi)
@@ -69,30 +59,6 @@ def ray_wall(p, phi, wall):
         return np.inf
     far = xa + (xb - xa) * ya / (ya - yb)
     return far if far >= 0 else np.inf
-
-# %% right: linear system, tolerance for parallels
-def ray_wall(p, phi, wall):
-    u = np.array([np.cos(phi), np.sin(phi)])
-    a, b = wall[:2], wall[2:]
-    M = np.column_stack([u, a - b])
-    if abs(np.linalg.det(M)) < 1e-12:
-        return np.inf
-    t, s = np.linalg.solve(M, a - p)
-    if t < 0 or s < 0 or s > 1:
-        return np.inf
-    return t
-
-# %% right: the wall turned into the beam's frame
-def ray_wall(p, phi, wall):
-    c, s = np.cos(phi), np.sin(phi)
-    x1 = c * (wall[0] - p[0]) + s * (wall[1] - p[1])
-    y1 = -s * (wall[0] - p[0]) + c * (wall[1] - p[1])
-    x2 = c * (wall[2] - p[0]) + s * (wall[3] - p[1])
-    y2 = -s * (wall[2] - p[0]) + c * (wall[3] - p[1])
-    if abs(y1 - y2) < 1e-12 or y1 * y2 > 0:
-        return np.inf
-    t = x1 + (x2 - x1) * y1 / (y1 - y2)
-    return t if t > 0 else np.inf
 
 # %% wrong: slope and intercept
 def ray_wall(p, phi, wall):

@@ -59,23 +59,6 @@ def locate(x, P, z, p, R):
         P = P - np.outer(K, H[k] @ P)
     return here, P
 
-# %% right: information form
-def locate(x, P, z, p, R):
-    H = H_robot(x, p)
-    v = z - h(x, p)
-    v[1] = np.arctan2(np.sin(v[1]), np.cos(v[1]))
-    Pn = np.linalg.inv(np.linalg.inv(P) + H.T @ np.linalg.solve(R, H))
-    return x + Pn @ H.T @ np.linalg.solve(R, v), Pn
-
-# %% right: information form
-def locate(x, P, z, p, R):
-    H = H_robot(x, p)
-    W = np.linalg.inv(R)
-    P_new = np.linalg.inv(np.linalg.inv(P) + H.T @ W @ H)
-    dr, db = z - h(x, p)
-    v = np.array([dr, wrap(db)])
-    return x + P_new @ H.T @ W @ v, P_new
-
 # %% right: (I - KH) P, heading wrapped at the end
 def locate(x, P, z, p, R):
     H = H_robot(x, p)
@@ -85,14 +68,6 @@ def locate(x, P, z, p, R):
     new = x + K @ v
     new[2] = wrap(new[2])
     return new, (np.eye(3) - K @ H) @ P
-
-# %% right: information form: adds H' R^-1 H to the inverse of P
-def locate(x, P, z, p, R):
-    H, W = H_robot(x, p), np.linalg.inv(R)
-    expected = h(x, p)
-    v = np.array([z[0] - expected[0], wrap(z[1] - expected[1])])
-    after = np.linalg.inv(np.linalg.inv(P) + H.T @ W @ H)
-    return x + after @ H.T @ W @ v, after
 
 # %% wrong: divides by S[0, 0] instead of the inverse
 def locate(x, P, z, p, R):

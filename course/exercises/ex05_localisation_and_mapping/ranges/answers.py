@@ -113,21 +113,6 @@ def locate_by_ranges(x, P, rs, beacons, a, sigma):
     after = np.linalg.inv(np.linalg.inv(P) + H.T @ H / sigma**2)
     return x + after @ H.T @ (rs - ranges(x)) / sigma**2, after
 
-# %% right: one range after the other, all linearised at the start
-def locate_by_ranges(x, P, rs, beacons, a, sigma):
-    start, c, s = x, np.cos(x[2]), np.sin(x[2])
-    antenna = x[:2] + np.array([c * a[0] - s * a[1], s * a[0] + c * a[1]])
-    swing = np.array([-s * a[0] - c * a[1], c * a[0] - s * a[1]])
-    for r, b in zip(rs, beacons):
-        away = antenna - b
-        expected = np.sqrt(away @ away)
-        H = np.append(away, away @ swing) / expected
-        v = r - expected - H @ (x - start)
-        S = H @ P @ H + sigma**2
-        K = P @ H / S
-        x, P = x + K * v, P - np.outer(K, K) * S
-    return x.copy(), P.copy()
-
 # %% wrong: H by differences
 def locate_by_ranges(x, P, rs, beacons, a, sigma):
     def expected(x):

@@ -48,16 +48,6 @@ def augment(x, P, z, R):
     T[n:, 0:3] = J_xr(x[:3], z)
     return np.r_[x, g(x[:3], z)], T @ big @ T.T
 
-# %% right: one big Jacobian of the old state and the sight: F [P 0; 0 R] F'
-def augment(x, P, z, R):
-    n = len(x)
-    big = np.zeros((n + 2, n + 2))
-    big[:n, :n], big[n:, n:] = P, R
-    F = np.eye(n + 2)
-    F[n:, :3] = J_xr(x[:3], z)
-    F[n:, n:] = J_z(x[:3], z)
-    return np.concatenate([x, g(x[:3], z)]), F @ big @ F.T
-
 # %% wrong: a little jitter written into the caller's P so that it is not singular
 def augment(x, P, z, R):
     if np.linalg.det(P[:3, :3]) == 0:

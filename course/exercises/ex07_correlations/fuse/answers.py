@@ -35,36 +35,6 @@ def fuse(a, P_a, b, P_b, P_ab):
     P = np.linalg.inv(np.linalg.inv(P_a) + H.T @ np.linalg.inv(R) @ H)
     return a + P @ H.T @ np.linalg.inv(R) @ (news - H @ a), P
 
-# %% right: generalised least squares of both
-def fuse(a, P_a, b, P_b, P_ab):
-    W = np.linalg.inv(np.block([[P_a, P_ab], [P_ab.T, P_b]]))
-    E = np.vstack([np.eye(2), np.eye(2)])
-    P = np.linalg.inv(E.T @ W @ E)
-    return P @ E.T @ W @ np.concatenate([a, b]), P
-
-# %% right: weighted least squares on the stacked pair
-def fuse(a, P_a, b, P_b, P_ab):
-    joint = np.block([[P_a, P_ab], [P_ab.T, P_b]])
-    A = np.vstack([np.eye(2), np.eye(2)])
-    N = A.T @ np.linalg.solve(joint, A)
-    P = np.linalg.inv(N)
-    return P @ A.T @ np.linalg.solve(joint, np.concatenate([a, b])), P
-
-# %% right: generalised least squares of both estimates stacked, with the joint 4x4 covariance
-def fuse(a, P_a, b, P_b, P_ab):
-    joint = np.block([[P_a, P_ab], [P_ab.T, P_b]])
-    A = np.vstack([np.eye(2), np.eye(2)])
-    W = np.linalg.inv(joint)
-    P = np.linalg.inv(A.T @ W @ A)
-    return P @ A.T @ W @ np.concatenate([a, b]), P
-
-# %% right: generalised least squares
-def fuse(a, P_a, b, P_b, P_ab):
-    W = np.linalg.inv(np.block([[P_a, P_ab], [P_ab.T, P_b]]))
-    M = np.vstack([np.eye(2), np.eye(2)])
-    P = np.linalg.inv(M.T @ W @ M)
-    return P @ M.T @ W @ np.append(a, b), P
-
 # %% wrong: K from b's side
 def fuse(a, P_a, b, P_b, P_ab):
     S = P_a + P_b - P_ab - P_ab.T

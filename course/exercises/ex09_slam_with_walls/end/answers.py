@@ -61,27 +61,6 @@ def end_point(x, P, j, beta, sigma):
     C = J @ P[:3, :3] @ J.T + J_z @ np.diag([0, sigma**2]) @ J_z.T
     return x[:2] + r * np.array([np.cos(a), np.sin(a)]), C, J @ P[:3]
 
-# %% right: the slopes of r by hand
-def end_point(x, P, j, beta, sigma):
-    k = 3 + 2 * j
-    rho, alpha = x[k], x[k + 1]
-    n, dn = np.array([np.cos(alpha), np.sin(alpha)]), np.array([-np.sin(alpha), np.cos(alpha)])
-    f = x[2] + beta
-    b, db = np.array([np.cos(f), np.sin(f)]), np.array([-np.sin(f), np.cos(f)])
-    nb = n @ b
-    r = (rho - n @ x[:2]) / nb
-    p = x[:2] + r * b
-    dr = np.zeros(len(x))
-    dr[:2] = -n / nb
-    dr[2] = -r * (n @ db) / nb
-    dr[k] = 1 / nb
-    dr[k + 1] = -(dn @ p) / nb
-    J = np.outer(b, dr)
-    J[:, :2] += np.eye(2)
-    J[:, 2] += r * db
-    along = b * dr[2] + r * db
-    return p, J @ P @ J.T + sigma ** 2 * np.outer(along, along), J @ P
-
 # %% right: complex-step differentiation
 def end_point(x, P, j, beta, sigma):
     at = 3 + 2 * j

@@ -87,16 +87,6 @@ def edges(z, bounds, heading, box):
         out.append([a, b, c + a * cx + b * cy + abs(a) * hx + abs(b) * hy])
     return np.array(out)
 
-# %% right: edges as lines through points of the sector, pushed out by the support of the box's corners
-def edges(z, bounds, heading, box):
-    mid = 0.5 * (heading[0] + heading[1]) + z[1]
-    half = bounds[1] + 0.5 * (heading[1] - heading[0])
-    corners = np.array([(x, y) for x in box[:2] for y in box[2:]])
-    angles = np.array([mid, mid + np.pi, mid + half + np.pi / 2, mid - half - np.pi / 2])
-    normals = np.column_stack([np.cos(angles), np.sin(angles)])
-    c = np.array([z[0] + bounds[0], -(z[0] - bounds[0]) * np.cos(half), 0.0, 0.0])
-    return np.column_stack([normals, c + (normals @ corners.T).max(axis=1)])
-
 # %% wrong: the bearing is turned into the world in place (z changed)
 def edges(z, bounds, heading, box):
     d = bounds[1] + (heading[1] - heading[0]) / 2

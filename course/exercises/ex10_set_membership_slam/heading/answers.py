@@ -55,20 +55,6 @@ def sharpen(heading, robot, box, bearing, bound):
     between = wrap(float(toward - bearing - middle + (right + left) / 2)) - (right + left) / 2
     return [middle + max(-half, between + right), middle + min(half, between + left)]
 
-# %% right: bearing by bearing, each on the turn of the heading's middle
-def sharpen(heading, robot, box, bearing, bound):
-    if min(robot[1], box[1]) >= max(robot[0], box[0]) and min(robot[3], box[3]) >= max(robot[2], box[2]):
-        return np.array(heading)
-    c = np.array([box[0] + box[1] - robot[0] - robot[1], box[2] + box[3] - robot[2] - robot[3]])
-    c0 = np.arctan2(c[1], c[0])
-    b = [wrap(np.arctan2(y - v, x - u) - c0) for x in box[:2] for y in box[2:] for u in robot[:2] for v in robot[2:]]
-    lo, hi = c0 + min(b) - bearing - bound, c0 + max(b) - bearing + bound
-    for k in range(-4, 5):
-        l, h_ = max(heading[0], lo + 2 * np.pi * k), min(heading[1], hi + 2 * np.pi * k)
-        if l <= h_ + 1e-12:
-            return np.array([l, max(l, h_)])
-    return np.array(heading)
-
 # %% right: box of differences, centre bearing, normalised right
 def sharpen(heading, robot, box, bearing, bound):
     dx = box[0] - robot[1], box[1] - robot[0]

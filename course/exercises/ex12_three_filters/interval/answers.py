@@ -58,13 +58,6 @@ def interval(k, n):
     root = np.sqrt(max(b * b - 4 * a * c, 0.0))
     return max(0.0, (-b - root) / (2 * a)), min(1.0, (-b + root) / (2 * a))
 
-# %% right: Clopper-Pearson from scipy
-def interval(k, n):
-    from scipy.stats import beta
-    low = beta.ppf(0.025, k, n - k + 1) if k > 0 else 0.0
-    high = beta.ppf(0.975, k + 1, n - k) if k < n else 1.0
-    return float(low), float(high)
-
 # %% right: roots of the quadratic a p^2 + b p + c, the far one first and the other by Vieta
 def interval(k, n):
     k, n = float(k), float(n)
@@ -74,14 +67,6 @@ def interval(k, n):
     high = (-b + root) / (2 * a)
     low = c / (a * high)
     return max(0.0, low), min(1.0, high)
-
-# %% right: Clopper and Pearson's exact interval
-from scipy.stats import beta
-
-def interval(k, n):
-    low = beta.ppf(0.025, k, n - k + 1) if k > 0 else 0.0
-    high = beta.ppf(0.975, k + 1, n - k) if k < n else 1.0
-    return low, high
 
 # %% wrong: sign of the middle term
 def interval(k, n):

@@ -47,12 +47,6 @@ def odometry(left, right, tick, base):
     at = turned @ np.array([0, -R]) + np.array([0, R])
     return np.append(at, w)
 
-# %% right: a chord by sinc
-def odometry(left, right, tick, base):
-    d, turn = tick * (left + right) / 2, tick * (right - left) / base
-    chord = d * np.sinc(turn / 2 / np.pi)
-    return chord * np.cos(turn / 2), chord * np.sin(turn / 2), turn
-
 # %% right: chord by hand, theta wrapped at the end
 def odometry(left, right, tick, base):
     l, r = tick * left, tick * right
@@ -60,20 +54,6 @@ def odometry(left, right, tick, base):
     d = 0.5 * (l + r)
     ratio = np.sin(half) / half if half != 0 else 1.0
     return np.array([d * ratio * np.cos(half), d * ratio * np.sin(half), float(wrap(2 * half))])
-
-# %% right: exponential of a twist by scipy
-from scipy.linalg import expm
-
-def odometry(left, right, tick, base):
-    d, turn = (left + right) * tick / 2, (right - left) * tick / base
-    E = expm(np.array([[0, -turn, d], [turn, 0, 0], [0, 0, 0]], dtype=float))
-    return np.array([E[0, 2], E[1, 2], turn])
-
-# %% right: numpy's sinc, in complex numbers
-def odometry(left, right, tick, base):
-    d, turn = (left + right) * tick / 2, (right - left) * tick / base
-    end = d * np.sinc(turn / 2 / np.pi) * np.exp(0.5j * turn)
-    return np.array([end.real, end.imag, turn])
 
 # %% wrong: returns at once when a wheel stands still
 def odometry(left, right, tick, base):

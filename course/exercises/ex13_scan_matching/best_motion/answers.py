@@ -74,15 +74,6 @@ def best_motion(source, target):
     T[:2, :2], T[:2, 2] = Rot, b - Rot @ a
     return T
 
-# %% right: complex numbers
-def best_motion(source, target):
-    a = source[:, 0] + 1j * source[:, 1]
-    b = target[:, 0] + 1j * target[:, 1]
-    turn = np.sum(np.conj(a - a.mean()) * (b - b.mean()))
-    turn /= abs(turn)
-    t = b.mean() - turn * a.mean()
-    return np.array([[turn.real, -turn.imag, t.real], [turn.imag, turn.real, t.imag], [0, 0, 1]])
-
 # %% right: SVD with diag(1, det)
 def best_motion(source, target):
     n = len(source)
@@ -94,26 +85,6 @@ def best_motion(source, target):
     V = Vt.T
     R = V @ np.diag([1.0, np.sign(np.linalg.det(V @ U.T))]) @ U.T
     return np.block([[R, (b - R @ a)[:, None]], [np.zeros((1, 2)), np.ones((1, 1))]])
-
-# %% right: complex numbers
-def best_motion(source, target):
-    a = source[:, 0] + 1j * source[:, 1]
-    b = target[:, 0] + 1j * target[:, 1]
-    w = np.sum((b - b.mean()) * np.conj(a - a.mean()))
-    w = w / abs(w)
-    t = b.mean() - w * a.mean()
-    return np.array([[w.real, -w.imag, t.real], [w.imag, w.real, t.imag], [0, 0, 1]])
-
-# %% right: complex numbers: the rotation is the phase of sum conj(a) b
-def best_motion(source, target):
-    a = source[:, 0] + 1j * source[:, 1]
-    b = target[:, 0] + 1j * target[:, 1]
-    ma, mb = a.mean(), b.mean()
-    q = np.sum(np.conj(a - ma) * (b - mb))
-    phase = np.angle(q)
-    w = np.exp(1j * phase)
-    t = mb - w * ma
-    return np.array([[w.real, -w.imag, t.real], [w.imag, w.real, t.imag], [0, 0, 1]])
 
 # %% wrong: one number as centroid: mean without the axis
 def best_motion(source, target):

@@ -54,17 +54,6 @@ def icp(source, target, T, rounds):
         T = step @ T
     return T.tolist()
 
-# %% right: moves the cloud along and multiplies the motions up
-def icp(source, target, T, rounds):
-    total = np.array(T, dtype=float)
-    cloud = carry(total, source)
-    for _ in range(rounds):
-        rows = nearest(cloud, target)[1]
-        move = best_motion(cloud, target[rows])
-        cloud = carry(move, cloud)
-        total = move @ total
-    return total
-
 # %% right: fits the source itself, not what was moved
 def icp(source, target, T, rounds):
     T = T.copy()

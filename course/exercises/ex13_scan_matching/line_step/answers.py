@@ -80,19 +80,6 @@ def line_step(source, target, normals, sigma, T, Q):
     y = np.array([*right, 0, 0, 0])
     return np.linalg.lstsq(A, y, rcond=None)[0], np.linalg.inv(A.T @ A)
 
-# %% right: loop over the pairs, information form
-def line_step(source, target, normals, sigma, T, Q):
-    R, t = T[:2, :2], T[:2, 2]
-    quarter = np.array([[0.0, -1.0], [1.0, 0.0]])
-    info, y = np.linalg.inv(Q), np.zeros(3)
-    for a, b, n, s in zip(source, target, normals, sigma):
-        r = n @ (R @ a + t - b)
-        J = np.append(n @ R, n @ R @ quarter @ a)
-        info = info + np.outer(J, J) / s**2
-        y = y - J * r / s**2
-    P = np.linalg.inv(info)
-    return P @ y, P
-
 # %% right: Kalman form with the innovation's covariance
 def line_step(source, target, normals, sigma, T, Q):
     R, t = T[:2, :2], T[:2, 2]

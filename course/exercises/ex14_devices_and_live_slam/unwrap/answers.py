@@ -56,12 +56,6 @@ def unwrap(values):
     values = np.array(values, dtype=int)
     return np.unwrap(values, period=256) - values[0]
 
-# %% right: int8 wraps by itself
-def unwrap(values):
-    small = np.array(values).astype(np.int8)
-    steps = np.diff(small).astype(np.int64)
-    return np.append(0, steps.cumsum()).astype(int)
-
 # %% wrong: one value too few: the zero of the first reading is missing
 def unwrap(values):
     steps = (np.diff(values) + 128) % 256 - 128

@@ -103,41 +103,6 @@ def step(poses, edges):
     delta = np.linalg.solve(H, b)[: 3 * n].reshape(n, 3)
     return [[x, y, wrap(float(turn))] for x, y, turn in poses + delta]
 
-# %% right: one tall least squares problem
-def step(poses, edges):
-    n = len(poses)
-    rows, right = [], []
-    for i, j, z, L in edges:
-        U = np.linalg.cholesky(L).T
-        A, B = jacobians(poses[i], poses[j], z)
-        J = np.zeros((3, 3 * n))
-        J[:, 3 * i:3 * i + 3] += A
-        J[:, 3 * j:3 * j + 3] += B
-        rows.append(U @ J)
-        right.append(-U @ error(poses[i], poses[j], z))
-    d = np.linalg.lstsq(np.vstack(rows)[:, 3:], np.concatenate(right), rcond=None)[0]
-    new = poses + np.vstack([np.zeros(3), d.reshape(-1, 3)])
-    new[:, 2] = wrap(new[:, 2])
-    return new
-
-# %% right: whitened by the Cholesky factor of each information, one least-squares problem without pose 0
-def step(poses, edges):
-    n = len(poses)
-    rows, rhs = [], []
-    for i, j, z, information in edges:
-        A, B = jacobians(poses[i], poses[j], z)
-        U = np.linalg.cholesky(information).T
-        J = np.zeros((3, n, 3))
-        J[:, i] += A
-        J[:, j] += B
-        rows.append(U @ J.reshape(3, -1)[:, 3:])
-        rhs.append(-U @ error(poses[i], poses[j], z))
-    delta = np.linalg.lstsq(np.vstack(rows), np.concatenate(rhs), rcond=None)[0]
-    new = np.array(poses, dtype=float)
-    new[1:] += delta.reshape(-1, 3)
-    new[:, 2] = np.arctan2(np.sin(new[:, 2]), np.cos(new[:, 2]))
-    return new
-
 # %% right: four blocks, H held by a stiff prior on pose 0
 def step(poses, edges):
     n = len(poses)
@@ -158,24 +123,6 @@ def step(poses, edges):
     x = poses + delta
     x[1:, 2] = wrap(x[1:, 2])
     return x
-
-# %% right: least squares on the stacked, whitened edges
-def step(poses, edges):
-    n, rows, rhs = len(poses), [], []
-    for i, j, z, L in edges:
-        U = np.linalg.cholesky(L).T
-        A, B = jacobians(poses[i], poses[j], z)
-        row = np.zeros((3, n, 3))
-        row[:, i] = U @ A
-        row[:, j] = U @ B
-        rows.append(row[:, 1:].reshape(3, -1))
-        rhs.append(-U @ error(poses[i], poses[j], z))
-    delta, *_ = np.linalg.lstsq(np.vstack(rows), np.concatenate(rhs), rcond=None)
-    new = [np.array(poses[0])]
-    for p, d in zip(poses[1:], delta.reshape(-1, 3)):
-        q = p + d
-        new.append(np.array([q[0], q[1], wrap(float(q[2]))]))
-    return np.array(new)
 
 # %% wrong: poses changed in place
 def step(poses, edges):
