@@ -36,7 +36,7 @@ def validate(path, default=None, keep=False) -> bool:
     for note in notebook.notes:
         print(f"note: {note}")
     wall = result["seconds"]["wall"]
-    for remark in preflight.form_warnings(notebook.cells, result["cells"], exercise, wall):
+    for remark in preflight.form_warnings(result["cells"], wall):
         print(textwrap.fill(remark, WIDTH, subsequent_indent="    "))
     for task, verdict in zip(exercise.tasks, result["verdicts"], strict=True):
         print(coloured(format_verdict(task, verdict)))

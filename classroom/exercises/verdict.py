@@ -47,5 +47,5 @@ class Verdict:
         """State which functions were replaced, or "" if the task was not tried with any."""
         if not self.replaced or self.kind == "not attempted":
             return ""
-        names = " and ".join(f"`{name}`" for name in self.replaced)
-        return f"tried with {'a ' * (len(self.replaced) == 1)}right {names} in place of yours"
+        names = " and ".join(f"{name}()" for name in self.replaced)
+        return f"tried with {'a ' * (len(self.replaced) == 1)}correct {names} in place of yours"

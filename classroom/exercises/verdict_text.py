@@ -71,7 +71,7 @@ def reason(law, mark):
     if mark == WAITS:
         return "depends on a broken law"
     if mark == KEPT and law.points < law.max_points:
-        return "earns no points alone"
+        return "counts only together with other laws"
     return ""
 
 

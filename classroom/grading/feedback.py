@@ -18,6 +18,12 @@ from classroom.grading.page_templates import templates
 from classroom.grading.records import write_atomically
 
 TEMPLATES = templates(Path(__file__).parent)
+FAILED = "Cells that failed"
+RAN = (
+    "Grading runs all code cells once, from top to bottom, in a new kernel and without your other "
+    "files; it goes on after a failed cell. To see the same, choose Kernel → Restart Kernel and "
+    "Run All Cells. Numbers count all cells from the top, those with text, too."
+)
 CLASSES = {KEPT: "kept", BROKEN: "broken", WAITS: "waits"}
 
 
@@ -44,7 +50,7 @@ def feedback_text(mark: Mark, student=None, zone=None) -> str:
         lines.append(f"Your submission could not be graded: {record.reason}.{manual}")
     lines += [*filter(None, [mark.late]), *mark.overrides, *mark.others, *mark.remarks]
     cells = [f"  cell {cell}: {problem}" for cell, problem in record.cells.items()]
-    lines += ["", "Cells that failed", *cells] if cells else []
+    lines += ["", f"{FAILED}. {how_cells_ran(record)}", *cells] if cells else []
     for verdict in record.verdicts:
         earned = f"{number(mark.points[verdict.task])} of {points(verdict.max_points)}"
         overridden = verdict.task in mark.override_reasons
@@ -54,6 +60,28 @@ def feedback_text(mark: Mark, student=None, zone=None) -> str:
         lines += [f"  {sign} {law.says}{_why(law, sign)}" for law, sign in laws_of(verdict)]
         lines += [f"  Hint: {verdict.hint}"] if verdict.hint else []
     return "\n".join(lines) + "\n"
+
+
+def how_cells_ran(record):
+    """Explain to the student how the cells were run."""
+    free = " The failed cells cost no points." * all(verdict.full for verdict in record.verdicts)
+    return f"{RAN}{free}"
+
+
+def advice(record, verdict):
+    """State what gains the points that a task lost, as far as "… with check(…)"."""
+    if verdict.laws:
+        return "correct your function so that the statements marked ✗ are true, and test it"
+    if verdict.kind == "not attempted":
+        return "solve the task, save the notebook before you submit it, and test your function"
+    if record.cells and verdict.kind in ("missing", "raised"):
+        return f"first correct the cells under “{FAILED}”, then test your function"
+    if verdict.kind == "missing":
+        return (
+            "no code cell defines the function: it may be renamed or deleted, or stand in a text "
+            "cell; correct this, and test it"
+        )
+    return "correct your function, and test it"
 
 
 def laws_of(verdict):
@@ -76,7 +104,8 @@ def title(mark: Mark, student=None) -> str:
 
 
 TEMPLATES.filters |= {"number": number, "points": points}
-TEMPLATES.globals |= {"laws_of": laws_of, "classes": CLASSES, "reason": reason}
+TEMPLATES.globals |= {"laws_of": laws_of, "classes": CLASSES, "reason": reason, "failed": FAILED}
+TEMPLATES.globals |= {"advice": advice, "how_cells_ran": how_cells_ran}
 
 
 def write_feedback_page(out: Path, mark: Mark):

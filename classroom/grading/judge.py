@@ -12,7 +12,13 @@ import time
 from dataclasses import replace
 from pathlib import Path
 
-from classroom.grading import course_digests, submissions, suspicious_code, task_judging
+from classroom.grading import (
+    course_digests,
+    preflight,
+    submissions,
+    suspicious_code,
+    task_judging,
+)
 from classroom.grading.gradebook_rows import attempt_key
 from classroom.grading.ledger import contents
 from classroom.grading.records import Record
@@ -115,7 +121,7 @@ def judge_notebook(
     seconds |= {"judge_cpu": time.thread_time() - judging, "worker_cpu": client.cpu}
     return {
         "verdicts": tuple(verdicts.values()),
-        "cells": dict(sorted(client.problems.items())),
+        "cells": preflight.explained(client.problems, cells, exercise),
         "isolation": workers.level,
         "versions": versions(),
         "judges": {task.id: course_digests.task_digest(task) for task in exercise.tasks},

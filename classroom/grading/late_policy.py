@@ -90,8 +90,8 @@ class Lateness:
         share, each, most = map(_percent, (self.share, policy.per_day, policy.at_most))
         return (
             f"Late penalty: {points(earned * self.share)} ({share} of {number(earned)}). Due on "
-            f"{due}{grace * bool(policy.grace_minutes)}; submitted on {when}: {days} late. Each "
-            f"started day costs {each} of the points earned, all days together at most {most}."
+            f"{due}{grace * bool(policy.grace_minutes)}; submitted on {when}: {days} late, "
+            f"as each started day counts. A day costs {each} of the points, all at most {most}."
         )
 
 

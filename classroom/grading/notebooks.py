@@ -8,6 +8,10 @@ from dataclasses import dataclass
 MAX_CODE_CELLS = 1000  # of one notebook
 
 SAVE = "save the notebook in JupyterLab and submit it again"
+_DOWNLOAD = (
+    "open your notebook in JupyterLab, choose Download in its menu File, and submit this file"
+)
+_EARLIER = f"it does not open in JupyterLab; open an earlier copy, then {SAVE}"
 _OTHER_KINDS = {
     "%pdf": "a PDF",
     "pk": "a zip",
@@ -47,9 +51,7 @@ def parse(data: bytes, lesson=False) -> Notebook:
     try:
         content = json.loads(text)
     except RecursionError:
-        raise SubmissionError(
-            f"the file is no notebook (too many nested brackets): open your notebook, {SAVE}"
-        ) from None
+        raise SubmissionError(f"the file is damaged (nested too deeply): {_EARLIER}") from None
     except json.JSONDecodeError as error:
         raise SubmissionError(_damage(text, error)) from None
     except ValueError:  # more digits than Python accepts
@@ -99,20 +101,19 @@ def _damage(text, error):
     if conflict:
         line = text.count("\n", 0, conflict.start()) + 1
         return (
-            f"git marked a conflict of two versions in line {line} of the file (<<<<<<<): open "
-            f"the file in a text editor, delete one version and the marks, then {SAVE}"
+            f"git marked a conflict of two versions in line {line} of the file: copy the file, and "
+            "open it in a text editor; wherever two versions stand between <<<<<<< and >>>>>>>, "
+            "delete one of them and the lines that begin with <<<<<<<, ======= and >>>>>>>; "
+            f"then {SAVE}"
         )
     begin = text.lstrip()[:20].lower()
     for signs, kind in _OTHER_KINDS.items():
         if begin.startswith(signs):
-            return f"the file is {kind} that was renamed, not a notebook: {SAVE}"
+            return f"the file contains {kind}, not a notebook: {_DOWNLOAD}"
     where = f"line {error.lineno}"
     if error.pos >= len(text.rstrip()) - 1 or error.msg.startswith("Unterminated"):
         return f"the file is incomplete, it ends within {where}: {SAVE}"
-    return (
-        f"the file is damaged in {where} ({error.msg}) and does not open in JupyterLab: open an "
-        f"earlier copy, then {SAVE}"
-    )
+    return f"the file is damaged in {where} ({error.msg}): {_EARLIER}"
 
 
 def _upgraded(content):

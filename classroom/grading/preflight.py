@@ -1,4 +1,4 @@
-"""Preflight: warn the student about a notebook's problems before submission."""
+"""Preflight: the remedies for cells that fail, and a student's warnings before submission."""
 
 import ast
 import re
@@ -8,17 +8,21 @@ from classroom.grading import syntax
 
 SLOW = 60.0  # warn about slower notebooks; the timeout at grading is five times as long [s]
 _UNDEFINED = re.compile(r"NameError: name '(\w+)' is not defined")
-_FORBIDDEN = re.compile(r"ModuleNotFoundError: No module named '([\w.]+)'")
+_NO_MODULE = re.compile(r"ModuleNotFoundError: No module named '([\w.]+)'")
+_REMEDIES = {  # by the beginning of a problem
+    "NameError: name 'exit'": "Grading has no exit(); delete the call",
+    "EOFError": "Nobody can answer input() at grading; write the value into the cell",
+    "FileNotFoundError": "Grading has the notebook alone, without your other files; write into the "
+    "notebook what you need from the file",
+    "still running": "Grading skips this cell",
+}
 
 
-def form_warnings(cells, problems, exercise, seconds):
-    """Return warnings about problems that would occur during grading, each with a remedy.
-    ``problems`` are reported by a :class:`WorkerClient`; ``seconds`` is the notebook's run time.
+def form_warnings(problems, seconds):
+    """Return warnings about problems that would occur during grading. ``problems`` are those of
+    :func:`explained`; ``seconds`` is the notebook's run time.
     """
-    warnings = []
-    for number, problem in problems.items():
-        remedy = _remedy(number, problem, cells, exercise)
-        warnings.append(f"cell {number} fails: {problem}{remedy}")
+    warnings = [f"cell {number} fails: {problem}" for number, problem in problems.items()]
     if seconds > SLOW:
         warnings.append(
             f"the notebook runs for {seconds:.0f} s; grading stops notebooks that run too long"
@@ -26,27 +30,42 @@ def form_warnings(cells, problems, exercise, seconds):
     return warnings
 
 
-def _remedy(number, problem, cells, exercise):
-    """Return the remedy for a common problem, to append to the message."""
+def explained(problems, cells, exercise):
+    """Return the problems of cells, reported by a :class:`WorkerClient`, in order, each with its
+    remedy; equal remedies are stated once.
+    """
+    defined = {number: _defined(source) for number, source in cells} if problems else {}
+    found, told = {}, {""}
+    for number, problem in sorted(problems.items()):
+        remedy = _remedy(number, problem, defined, exercise)
+        found[number] = problem if remedy in told else f"{problem}. {remedy}"
+        told.add(remedy)
+    return found
+
+
+def _remedy(number, problem, defined, exercise):
+    for begin, remedy in _REMEDIES.items():
+        if problem.startswith(begin):
+            return remedy
     if missing := _UNDEFINED.search(problem):
-        later = [n for n, source in cells if n > number and missing[1] in _defined(source)]
+        later = [n for n, names in defined.items() if n > number and missing[1] in names]
         if later:
             return (
-                f". Cell {later[0]} defines {missing[1]}, but grading runs cells from top to "
-                "bottom. Move that cell up, then choose Kernel → Restart Kernel and Run All Cells"
+                f"Cell {later[0]} defines {missing[1]}, but grading runs cells from top to bottom. "
+                "Move that cell up"
             )
+        return f"No cell defines {missing[1]}. Was its cell deleted? The exercise's notebook has it"
+    if missing := _NO_MODULE.search(problem):
+        name = missing[1].partition(".")[0]
+        if name in exercise.hides:
+            return f"{missing[1]} is not available at grading because it solves this exercise"
+        if name in installed_course.own_packages():
+            allowed = ", ".join(exercise.allows) or "none of slamlab's modules"
+            return f"{missing[1]} is not available at grading; this exercise may use {allowed}"
         return (
-            f". No cell defines {missing[1]}. Choose Kernel → Restart Kernel and Run All Cells to "
-            "see the error"
+            f"{name} is not available at grading. Use the packages that the exercise imports; "
+            "copy code from your own files into the notebook"
         )
-    refused = _FORBIDDEN.search(problem)
-    if refused and refused[1].partition(".")[0] in exercise.hides:
-        return f". {refused[1]} is not available at grading because it solves this exercise"
-    if refused and refused[1].partition(".")[0] in installed_course.own_packages():
-        allowed = ", ".join(exercise.allows) or "none of slamlab's modules"
-        return f". {refused[1]} is not available at grading; this exercise may use {allowed}"
-    if problem.startswith("still running"):
-        return ". Grading skips this cell"
     return ""
 
 

@@ -59,6 +59,8 @@ def _filled(match, known):
         if match[group] not in known:
             start, end = match.span(group)
             text, hidden = text[:start] + _HIDDEN + text[end:], True
+    if hidden and "shape" in text:
+        text = "returned an array of a wrong shape"
     return f"{text}; {_SEE_CHECK}" if hidden else text
 
 

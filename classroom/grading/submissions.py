@@ -15,6 +15,7 @@ MAX_NOTEBOOK_BYTES = 20 << 20  # size of a file [bytes]
 MAX_TIMESTAMP_CHARACTERS = 100  # of nbgrader's note on the time
 MAX_FOLDER_DEPTH = 10  # of nested folders
 _AGAIN = "submit the file whose name ends in .ipynb"
+_RENAME = "name the file as its exercise, such as ex03_kalman_filter.ipynb, and submit it again"
 _REMEDIES = {
     ".py": f"it is a Python program: {_AGAIN}",
     **dict.fromkeys((".pdf", ".html", ".htm"), f"it is a printed copy: {_AGAIN}"),
@@ -114,13 +115,14 @@ def visible_files(folder):
 def problem_of(files):
     """Return why the first of some files is not a notebook, and what the student can do."""
     if not files:
-        return f"nothing was submitted: {_AGAIN}"
+        return f"your submission contains no file: {_AGAIN}, and look that it is no draft"
     name, rest = _printable(files[0].name), files[0].suffix.lower()
     if name.lower().endswith((".ipynb.txt", ".ipynb.json")):
-        remedy = f"remove “{files[0].suffix}” from the end of its name, and submit it again"
-    else:
-        remedy = _REMEDIES.get(rest, _AGAIN)
-    return f"“{name}” is not a notebook; {remedy}"
+        return (
+            f"the name “{name}” has a wrong ending: remove “{files[0].suffix}” from its end, which "
+            "Windows may hide, and submit the file again"
+        )
+    return f"“{name}” is not a notebook; {_REMEDIES.get(rest, _AGAIN)}"
 
 
 def content_hash(path):
@@ -184,18 +186,16 @@ def identify_exercise(submission: Submission, notebook: Notebook, bound=None):
     named = notebook.exercise
     if named is not None and named not in catalogue.EXERCISES:
         raise SubmissionError(
-            f"the notebook states exercise {named[:20]!r}, which does not exist: copy your "
-            "solution into a new copy of the exercise's notebook, and submit this copy"
+            f"the notebook's metadata (JupyterLab hides them) name exercise {named[:20]!r}, "
+            "which does not exist: copy your solution into a new copy of the exercise's notebook, "
+            "and submit this copy"
         )
     stated = {"its metadata": named, "its file name": None, "--exercise": bound and bound.zfill(2)}
     if not (named and bound):  # the file name matters only if one of them is missing
         stated["its file name"] = _exercise_by_name(submission.name)
     stated = {source: id for source, id in stated.items() if id}
     if not stated:
-        raise SubmissionError(
-            "the file does not state which exercise it is: give it the name that it had at first, "
-            "and submit it again (graders: use --exercise)"
-        )
+        raise SubmissionError(f"neither the file nor its name states the exercise: {_RENAME}")
     if len(set(stated.values())) > 1:
         source, other = next(iter(stated.items()))
         if bound:
@@ -205,8 +205,8 @@ def identify_exercise(submission: Submission, notebook: Notebook, bound=None):
             )
         by_source = ", ".join(f"{id} by {source}" for source, id in stated.items())
         raise SubmissionError(
-            f"the exercise is {by_source}: give the file the name that it had at first, and submit "
-            "it again (graders: use --exercise)"
+            f"the exercise is {by_source}: {_RENAME}; if you solved another exercise in it, copy "
+            "your solution into a new copy of that exercise's notebook, and submit this copy"
         )
     return catalogue.exercise(next(iter(stated.values())))
 

@@ -20,6 +20,7 @@ Arrays = Mapping[str, np.ndarray]
 MAX_NUMBERS = 500_000
 """Largest size of one output: no right answer is larger, and the pipe limits a message."""
 
+_LINE_OF_SYNTAX_ERROR = re.compile(r" \(<cell \d+>, line (\d+)\)$")
 _CELL = re.compile(r"<cell |<ipython-input|[/\\](ipykernel|xpython)_")
 
 
@@ -174,7 +175,10 @@ def describe_exception(error: BaseException) -> str:
         text = str(error)[:1000].strip().splitlines()
     except Exception:  # str() of a student's exception class may fail, too
         text = []
-    return f"{type(error).__name__}: {text[0][:300] if text else 'no message'}{where}"
+    said = _LINE_OF_SYNTAX_ERROR.sub(
+        r" (line \1 of the cell)", text[0][:300] if text else "no message"
+    )
+    return f"{type(error).__name__}: {said}{where}"
 
 
 def line_in_cell(file, number) -> str:

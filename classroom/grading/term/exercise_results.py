@@ -97,7 +97,7 @@ def exercise_results(course, roster, marks, policy):
             counted = _counted(mine, course.attempts)
             others = tuple(pair[1] for pair in sorted(mine, key=_when) if pair[1] is not counted)
             due = policy.due_for(id, student.id)
-            counted = counted and _with_others(counted, others, course.zone)
+            counted = counted and _with_others(counted, others, course)
             found[id].append(ExerciseResult(student, id, counted, others, due))
     return found
 
@@ -108,13 +108,15 @@ def file_of(record):
     return (of_lms and of_lms.file) or record.submission.partition("/")[2] or record.submission
 
 
-def _with_others(counted, others, zone):
+def _with_others(counted, others, course):
     """Return the mark that counts with sentences on the other attempts, and with their remarks."""
     sentences = []
     for made in others[: -MAX_OTHERS - 1 : -1]:
-        when = local_time(made.record.handed_in, zone, named=True)
+        when = local_time(made.record.handed_in, course.zone, named=True)
         file = f"{file_of(made.record)}{when and f' ({when})'}"
-        sentences.append(f"Another attempt, {file}, does not count: {made.outcome()}")
+        worked = made.total is not None and not made.record.unsolved
+        because = f", because the {course.attempts} attempt counts" if worked else ""
+        sentences.append(f"Another attempt, {file}, does not count{because}; {made.outcome()}")
         if made.remarks and not counted.remarked:
             sentences += [f"Remark on {file}: {remark}" for remark in made.remarks]
     left = len(others) - MAX_OTHERS

@@ -79,7 +79,7 @@ def test_a_class_is_graded_and_everyone_is_listed(class_folder, tmp_path, capsys
     assert "Double a number: not attempted yet" in rows["as it was.ipynb"]["note"]
     note = rows["missing/99_fake/99_fake.ipynb"]["note"]
     assert note.startswith(
-        "Double a number: double is not defined; Double a sum: tried with a right `double`"
+        "Double a number: double is not defined; Double a sum: tried with a correct double()"
     )
     for name in ungraded:
         assert rows[name]["note"].startswith("could not be graded: ")

@@ -1,5 +1,7 @@
 """Error carried forward: a wrong function costs points only in its own task."""
 
+import ast
+
 import numpy as np
 import pytest
 
@@ -55,6 +57,25 @@ def test_a_right_solution_keeps_full_points_with_every_mistake(need, task):
     assert lost == []
 
 
+def called(source):
+    """Names that a program calls and does not define itself."""
+    nodes = list(ast.walk(ast.parse(source)))
+    own = {n.name for n in nodes if isinstance(n, ast.FunctionDef)}
+    own |= {n.id for n in nodes if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)}
+    calls = (n.func for n in nodes if isinstance(n, ast.Call))
+    return {f.id for f in calls if isinstance(f, ast.Name)} - own
+
+
+@pytest.mark.parametrize("id", PROGRAMS)
+def test_a_task_needs_each_earlier_task_whose_function_a_right_program_calls(id):
+    one = PROGRAMS[id]
+    right = [*one.ways.values(), *(a.source for a in one.answers if a.kind == "right")]
+    names = set().union(*map(called, right))
+    tasks = one.exercise.tasks
+    earlier = {f: task.id for task in tasks[: tasks.index(one.task)] for f in task.call.functions}
+    assert {earlier[name] for name in names & set(earlier)} <= {*one.task.needs, "15-step"}
+
+
 @pytest.mark.parametrize("id", sorted({need for need, _ in PAIRS}))
 def test_a_reference_solves_its_task(id):
     one = PROGRAMS[id]
@@ -67,7 +88,7 @@ def test_a_task_is_judged_with_right_functions_in_place_of_wrong_ones_and_this_i
     result = judged(fake.SOLUTION, WRONG)["verdicts"]
     assert [v.points for v in result] == [1.5, 2.5, 2]
     assert [v.replaced for v in result] == [(), (), ("double",)]
-    assert result[2].carried == "tried with a right `double` in place of yours"
+    assert result[2].carried == "tried with a correct double() in place of yours"
     assert [v.replaced for v in judged(fake.SOLUTION)["verdicts"]] == [()] * 3
 
 

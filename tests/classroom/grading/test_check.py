@@ -101,7 +101,7 @@ def test_a_task_that_needs_a_wrong_function_is_checked_with_a_right_one_that_doe
     exec(compile(fake.SOLUTION + double("return a") + keeps, "<cell 1>", "exec"), names)
     with contextlib.redirect_stdout(io.StringIO()) as printed:
         eval("check('99-total')", names)
-    assert "tried with a right `double` in place of yours" in printed.getvalue()
+    assert "tried with a correct double() in place of yours" in printed.getvalue()
     assert "2 of 2 points" in printed.getvalue()
     assert names["double"](1.0) == 1.0
     exec("def total(a):\n    raise NotImplementedError", names)

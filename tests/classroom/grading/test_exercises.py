@@ -95,6 +95,7 @@ def defined_in(id):
     return {node.name for node in ast.parse(code).body if isinstance(node, made)}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("id", EXERCISES)
 def test_one_missing_function_loses_only_its_task_and_is_named(id):
     exercise = catalogue.exercise(id)

@@ -16,6 +16,7 @@ from classroom.grading.marks import mark
 from classroom.grading.submissions import Submission
 from tests.classroom.grading import fake
 from tests.classroom.grading.conftest import notebook, workers
+from tests.classroom.grading.program_verdicts import explained_verdict, mistake
 from tests.classroom.grading.turning_task import (
     TURN,
     WRONG,
@@ -108,6 +109,27 @@ def test_a_distance_that_is_infinite_is_reported_as_infinity(monkeypatch):
     )
     lines = [line.strip() for line in report(turn, task).splitlines()]
     assert lines[-4:] == ["it returns", "inf", "and should return", "2"]
+
+
+@pytest.mark.parametrize(
+    ("id", "name", "outputs", "text"),
+    [
+        ("08-associate", "pairs", {"pairs": [1.0, -1.0]}, "[1, None]"),
+        ("08-pillar", "pillar", {"found": 0.0, "pillar": [0.0] * 3, "inside": [0.0]}, "None"),
+    ],
+)
+def test_none_is_shown_as_none(id, name, outputs, text):
+    arrays = {key: np.array(value) for key, value in outputs.items()}
+    _, shown = failing_case_text.PRESENTATIONS[id].shown({}, arrays)
+    assert list(shown) == [name]
+    assert str(shown[name]) == text
+
+
+def test_the_case_of_whole_runs_fits_on_a_screen():
+    for name in ("S-incomplete", "map-kept-between-runs", "innovation-not-wrapped"):
+        case = explained_verdict("06-consistent", mistake("06-consistent", name)).case
+        assert "-1]" not in case
+        assert len(case.splitlines()) <= 32
 
 
 def test_a_whole_number_is_reported_in_all_its_digits():

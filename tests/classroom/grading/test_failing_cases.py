@@ -101,7 +101,7 @@ def test_a_law_that_builds_on_a_broken_one_or_earns_nothing_alone_is_marked(monk
     assert verdict.points == 0
     assert "✗ turns left: broken by" in printed
     assert "– and so it is far off: depends on a broken law (0 of 2 points)" in printed
-    assert "✓ is a pair (0 of 1 point: earns no points alone)" in printed
+    assert "✓ is a pair (0 of 1 point: counts only together with other laws)" in printed
     marks = [line.split()[0] for line in printed.splitlines()[1:5]]
     assert marks == ["✗", "–", "✓", "✓"]
     one = mark(Record("a.ipynb", "a", "99", verdicts=(verdict,), titles={task.id: task.title}))
@@ -110,7 +110,7 @@ def test_a_law_that_builds_on_a_broken_one_or_earns_nothing_alone_is_marked(monk
     assert re.findall(r'<li class="(\w+)"', page) == ["broken", "waits", "kept", "kept"]
     for reported in (text, page):
         assert "depends on a broken law" in reported
-        assert "earns no points alone" in reported
+        assert "counts only together" in reported
     reported = SimpleNamespace(counts=[0, 0, 1], mistakes=[])
     view = submission_view._task(
         SimpleNamespace(mistakes={task.id: reported}), SimpleNamespace(mark=one, undecided={}), task

@@ -64,8 +64,9 @@ def test_the_same_name_in_two_exercises_counts_in_both(book):
 
 
 def test_names_may_contain_any_characters(book):
-    book.add(record(ODD, cells={1: ODD}))
+    book.add(record(ODD, cells={5: ODD, 12: ODD}))
     (found,) = book.latest_attempts()
+    assert list(found.cells) == [5, 12]  # in the order of the notebook
     assert found.submission.startswith("Zoë \\x00 \\udce9")
     book.override_points(record(ODD), "99-double", 2, ODD)
     assert (found.submission, found.sha256, "99-double") in book.overrides()

@@ -255,7 +255,7 @@ def test_without_fork_each_worker_is_a_spawned_interpreter(monkeypatch, tmp_path
     with WorkerPool() as fresh:
         result = judged(fake.SOLUTION, "import os; os._exit(0)", "print('x' * 10**6)", by=fresh)
     assert [verdict.points for verdict in result["verdicts"]] == FULL
-    assert result["cells"][2].startswith("ended the whole Python process, for example by exit()")
+    assert result["cells"][2].startswith("ended the whole Python process: called exit()")
     assert list(tmp_path.iterdir()) == []
 
 

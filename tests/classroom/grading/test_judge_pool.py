@@ -112,8 +112,11 @@ def judges_of(grading):
     return [p for p in children(grading.pid) if Path(f"/proc/{p}/cmdline").read_bytes() == called]
 
 
+SLOW = [pytest.param(sent, marks=pytest.mark.slow) for sent in ("SIGHUP", "SIGINT")]
+
+
 @pytest.mark.parametrize("level", [None, pytest.param(sandbox.NONE, marks=pytest.mark.slow)])
-@pytest.mark.parametrize("sent", ["SIGKILL", "SIGTERM", "SIGHUP", "SIGINT"])
+@pytest.mark.parametrize("sent", ["SIGKILL", "SIGTERM", *SLOW])
 def test_no_process_outlives_a_killed_grader(tmp_path, sent, level):
     class_of(tmp_path / "class", *[notebook(HANGS, exercise="04")] * 3)
     grading, processes = running(tmp_path, level)

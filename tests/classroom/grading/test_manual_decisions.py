@@ -107,7 +107,7 @@ def test_a_notebook_without_a_solution_never_replaces_a_worked_one(folder, rule)
     _, found = stored(folder, worked, blank("s1/ex99 - Copy.ipynb", "c", 2))
     assert found["99"][0].mark.record.submission == worked.submission
     for text in (row(folder)["note"], feedback.feedback_text(found["99"][0].mark)):
-        assert "ex99 - Copy.ipynb, does not count: it contains no solution" in text
+        assert "ex99 - Copy.ipynb, does not count; it contains no solution" in text
 
 
 LAST = "2026-12-01T10:00:00+00:00"
@@ -117,6 +117,9 @@ def test_the_row_and_the_page_name_the_other_file_and_what_it_would_earn(folder)
     one = replace(attempt("s1", 8, LAST, name="s1/a.ipynb"), seen=1)
     two = replace(attempt("s1", 5, LAST, "c", "s1/b.ipynb"), seen=2)
     _, found = stored(folder, one, two)
-    sentence = "a.ipynb (2026-12-01 11:00 CET), does not count: it would earn 8 of 8 points"
+    sentence = (
+        "a.ipynb (2026-12-01 11:00 CET), does not count, because the last attempt counts; it would "
+        "earn 8 of 8 points"
+    )
     assert row(folder)["submission"] == "s1/b.ipynb" and sentence in row(folder)["note"]
     assert sentence in feedback.feedback_page(found["99"][0].mark)

@@ -79,7 +79,7 @@ def test_an_unreadable_attempt_does_not_replace_a_graded_one_and_a_late_one_is_n
     stored(folder, attempt("s2", 8, name="ivoben_LATE_1022_7_x.ipynb"))
     row, late, _ = table(folder / "results/99/grades.csv")
     assert row["score"] == "8" and row["note"] == (
-        "Another attempt, s1b.ipynb (2026-12-01 12:00 CET), does not count: it could not be "
+        "Another attempt, s1b.ipynb (2026-12-01 12:00 CET), does not count; it could not be "
         "graded: empty"
     )
     assert "Canvas marks it as late" in late["note"]

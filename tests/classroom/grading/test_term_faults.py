@@ -60,7 +60,7 @@ def test_the_exercise_on_the_command_line_binds_and_the_metadata_precede_the_nam
 )
 def test_a_number_somewhere_in_a_name_determines_no_exercise(name):
     assert identified(name, SILENT, "04") == "04"
-    with pytest.raises(SubmissionError, match="graders: use --exercise"):
+    with pytest.raises(SubmissionError, match="name the file as its exercise"):
         identified(name, SILENT)
 
 

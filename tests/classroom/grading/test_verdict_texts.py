@@ -22,8 +22,8 @@ MULTINOMIAL = DRAW.format("rng.choice(n, n, p=weights)")
 
 @pytest.mark.parametrize("source", [MULTINOMIAL, HEAP], ids=["tickets", "one sample, n times"])
 def test_right_draws_on_average_are_not_reported_as_wrong_on_average(source):
-    verdicts = [OF["11-draw"].verdict(source, b"said %d" % k) for k in range(20)]
-    assert [broken(verdict) for verdict in verdicts] == [{"share"}] * 20
+    verdicts = [OF["11-draw"].verdict(source, b"said %d" % k) for k in range(10)]
+    assert [broken(verdict) for verdict in verdicts] == [{"share"}] * 10
 
 
 def test_chance_breaks_the_law_of_the_mean_less_than_once_in_a_million():
@@ -43,7 +43,7 @@ def test_a_wrong_mean_breaks_its_law_whatever_else_is_wrong():
     off = DRAW.format("rng.choice(n, n, p=weights**2 / (weights**2).sum())")
     half = edited("11-draw", ("rng.random()", "rng.random() / 2"))
     for source in (off, half):
-        for k in range(10):
+        for k in range(5):
             assert "fair" in broken(OF["11-draw"].verdict(source, b"said %d" % k))
 
 
@@ -128,7 +128,7 @@ def test_an_answer_that_replaces_no_particle_gets_that_hint():
 def test_the_points_of_all_laws_sum_up_to_those_of_the_task(id):
     one = OF[id]
     for mistake in one.mistakes:
-        verdict = explained_verdict(id, one.source(mistake.programs[0]))
+        verdict = one.verdict(one.source(mistake.programs[0]), OPEN_SEED)
         if verdict.laws:
             assert sum(law.max_points for law in verdict.laws) == one.task.points
             text = format_verdict(one.task, verdict)
