@@ -4,6 +4,7 @@ What a sandbox has to keep from them is tested with the sandbox; here they are r
 """
 
 import ast
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
@@ -48,9 +49,13 @@ def prepared_world(seed):
 
 
 @cache
+def driven(make, seed=2):
+    return run_estimator(make, prepared_world(seed).world, UNLIMITED)
+
+
 def result(make, seed=2):
     """What an estimator makes of a small world."""
-    return prepared_world(seed).judge(run_estimator(make, prepared_world(seed).world, UNLIMITED))
+    return prepared_world(seed).judge(driven(make, seed))
 
 
 @pytest.mark.parametrize("source", SOURCES, ids=lambda path: path.stem)
@@ -156,19 +161,13 @@ def test_a_cheater_gains_nothing_over_odometry(make):
 
 
 def test_an_inconsistent_covariance_costs_a_good_estimator_points():
-    class Silent:
-        covariance = None
-        pose = property(lambda self: self.slam.pose)
-
-        def __init__(self):
-            self.slam = Solution()
-            self.step, self.map = self.slam.step, self.slam.map
-            self.trajectory = self.slam.trajectory
-
-    class Boaster(Silent):
-        covariance = 1e-12 * np.eye(3)
-
-    assert result(Boaster).points == pytest.approx(result(Silent).points - 20)
+    run = driven(Solution)
+    silent, boasting = (
+        replace(run, covariances=np.broadcast_to(P, run.covariances.shape))
+        for P in (np.full((3, 3), np.nan), 1e-12 * np.eye(3))
+    )
+    points = [prepared_world(2).judge(each).points for each in (silent, boasting)]
+    assert points[1] == pytest.approx(points[0] - 20)
 
 
 def test_an_estimator_that_wastes_cpu_loses_the_remaining_worlds():

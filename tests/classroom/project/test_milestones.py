@@ -198,7 +198,9 @@ def test_no_covariance_that_is_constant_or_ignores_the_scans_is_consistent(seed)
     assert (mean_nees(inputs, found | {"covariance": P * 0 + growing}) < HIGH).all()
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize(
+    "seed", [OPEN_SEED, *(pytest.param(seed, marks=pytest.mark.slow) for seed in SEEDS[1:])]
+)
 def test_the_consistency_does_not_depend_on_the_frame(seed):
     sets = SURE.draw_inputs(seed)
     own, turned = (

@@ -7,6 +7,8 @@ from tests.course.browser.lecture import Lecture
 from tests.course.browser.live import fresh
 from tests.timeouts import until
 
+pytestmark = pytest.mark.slow
+
 NAME = "derivation.ipynb"
 DERIVED = """\
 import sympy as sp
