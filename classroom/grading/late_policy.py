@@ -91,7 +91,8 @@ class Lateness:
         return (
             f"Late penalty: {points(earned * self.share)} ({share} of {number(earned)}). Due on "
             f"{due}{grace * bool(policy.grace_minutes)}; submitted on {when}: {days} late, "
-            f"as each started day counts. A day costs {each} of the points, all at most {most}."
+            f"as each started day counts. A day costs {each} of the points earned, all days "
+            f"together at most {most}."
         )
 
 

@@ -54,7 +54,10 @@ def _remedy(number, problem, defined, exercise):
                 f"Cell {later[0]} defines {missing[1]}, but grading runs cells from top to bottom. "
                 "Move that cell up"
             )
-        return f"No cell defines {missing[1]}. Was its cell deleted? The exercise's notebook has it"
+        return (
+            f"No cell defines {missing[1]}. If you deleted its cell, copy it from a new copy of "
+            "the exercise's notebook"
+        )
     if missing := _NO_MODULE.search(problem):
         name = missing[1].partition(".")[0]
         if name in exercise.hides:

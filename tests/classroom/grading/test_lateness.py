@@ -51,8 +51,8 @@ def test_the_page_states_due_date_grace_days_rate_and_points(tmp_path):
     made = mark(attempt("s1", 8, "2026-03-29T22:30:00+00:00"), policy=rules)
     sentence = (
         "Late penalty: 1.6 points (20 % of 8). Due on 2026-03-28 23:59 CET (up to 10 minutes "
-        "later without a penalty); submitted on 2026-03-30 00:30 CEST: 2 days late. Each started "
-        "day costs 10 % of the points earned, all days together at most 50 %."
+        "later without a penalty); submitted on 2026-03-30 00:30 CEST: 2 days late, as each "
+        "started day counts. A day costs 10 % of the points earned, all days together at most 50 %."
     )
     assert sentence in feedback.feedback_page(made) and sentence in feedback.feedback_text(made)
     assert sentence.removesuffix(".") in made.note
