@@ -16,7 +16,7 @@ def checked(tmp_path, capsys, *cells):
 def test_each_cell_that_fails_is_reported_with_its_remedy():
     messages = {
         "print(late)": "defined (line 1 of the cell). Cell 8 defines late, but grading runs cells",
-        "print(deleted)": "No cell defines deleted. If you deleted its cell, copy it from a new copy",
+        "print(deleted)": "No cell defines deleted. If you deleted its cell, copy it from a new",
         "import slamlab.geometry": "slamlab.geometry is not available at grading; this exercise "
         "may use slamlab.models.noise",
         "import nowhere": "copy code from your own files into the notebook",
