@@ -187,13 +187,19 @@ def test_the_map_is_saved_at_the_end_unless_it_was_saved_before(tmp_path):
     assert not (tmp_path / "map.png").exists()
 
 
-def test_the_naive_track_is_shown_once():
-    for estimator, beside in (("walls", 1), ("icp", 0)):
-        run_ = At(estimator=estimator).run
-        tracks = [x for x in run_.scene().drawables if (x.kind, x.name) == ("poses", "naive")]
-        assert len(tracks) == 1
-        own = [layer.name for layer in run_.estimator.layers()].count("naive")
-        assert bool(own) != bool(beside)
+@pytest.mark.parametrize(
+    ("source", "estimator", "tracks", "own"),
+    [
+        ("sim:situation-2", "walls", 1, False),
+        ("sim:situation-2", "icp", 1, True),
+        ("sim:flat-carried", "icp", 0, False),
+    ],
+)
+def test_the_naive_track_is_shown_once_and_never_without_odometry(source, estimator, tracks, own):
+    run_ = At(source, estimator=estimator).run
+    drawn = [(each.kind, each.name) for each in run_.scene().drawables]
+    assert drawn.count(("poses", "naive")) == tracks
+    assert ("naive" in [layer.name for layer in run_.estimator.layers()]) == own
 
 
 def test_only_bytes_of_devices_are_recorded():
@@ -233,9 +239,3 @@ def test_the_number_of_pages_is_limited():
     for _ in range(MAX_PAGES):
         Page(screens)
     assert not screens.add(PageScreen(print)) and len(screens) == MAX_PAGES
-
-
-@pytest.mark.parametrize(("source", "layers"), [("sim:flat-carried", 0), ("sim:room", 2)])
-def test_without_odometry_no_naive_track_is_shown(source, layers):
-    scene = At(source, estimator="icp").run.scene()
-    assert sum(layer.name == "naive" for layer in scene.layers) == layers

@@ -16,11 +16,14 @@ def test_a_port_out_of_range_is_refused(port, capsys):
 
 @pytest.mark.parametrize(
     ("source", "words"),
-    [("sim:room", "0.5, 30 to drive"), ("sim:flat-carried", "pause, run, reset or exit")],
+    [
+        (["sim:room"], "0.5, 30 to drive"),
+        (["sim:landmarks", "--estimator", "mak"], "pause, run, reset or exit"),
+    ],
 )
 def test_without_a_page_the_command_states_how_the_run_starts_and_what_can_be_typed(source, words):
     pytest.importorskip("tornado")  # slamlab live serves a page
-    live = [sys.executable, "-m", "slamlab", "live", source, "--no-open"]
+    live = [sys.executable, "-m", "slamlab", "live", *source, "--no-open"]
     done = subprocess.run(live, input="run\nexit\n", capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     assert "when you type run" in done.stdout and f"Type {words}" in done.stdout

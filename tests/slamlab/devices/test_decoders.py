@@ -74,18 +74,6 @@ def test_a_node_is_read_as_the_protocol_specifies(data, start, quality, degrees,
     assert (node["angle_q6"] / 64, node["distance_q2"] / 4) == (degrees, mm)
 
 
-def test_legacy_capsules_with_and_without_an_offset():
-    R = bytearray(Q)
-    R[2:4] = (int(57.59375 * 64)).to_bytes(2, "little")
-    check = np.bitwise_xor.reduce(np.frombuffer(R[2:], np.uint8))
-    R[0], R[1] = 0xA0 | check & 15, 0x50 | check >> 4
-    nodes, _ = decoded(AnswerType.EXPRESS, P + Q + bytes(R))
-    assert (nodes["distance_q2"] == 4000).all()
-    assert not nodes["start"].any()
-    assert (nodes["angle_q6"][:3] / 64).tolist() == [0.0, 0.890625, 1.796875]
-    assert (nodes["angle_q6"][32:34] / 64).tolist() == [21.546875, 22.4375]
-
-
 def capsule(answer, start_q6):
     """A capsule without distances."""
     header, size = DECODERS[answer].header, DECODERS[answer].size

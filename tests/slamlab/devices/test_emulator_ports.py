@@ -19,7 +19,7 @@ from slamlab.devices.emulator.pseudo_terminal import BUFFER_SIZE
 from slamlab.devices.emulator.tcp_server import TcpServer
 from slamlab.devices.errors import ConnectionLost
 from slamlab.devices.rplidar import RPLidar
-from slamlab.devices.rplidar.requests import Command, motor_pwm, request
+from slamlab.devices.rplidar.requests import Command, request
 from slamlab.devices.transport import open_port
 from slamlab.simulation import worlds
 from tests.timeouts import PATIENCE, until
@@ -32,19 +32,6 @@ ENDS = [pytest.param(None, marks=needs_pty, id="pty"), pytest.param(LOCAL, id="t
 
 def running(tcp=None, **options):
     return run_emulators(worlds.polygon(), np.random.default_rng(0), tcp, **options)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("tcp", ENDS)
-def test_a_client_that_does_not_read_loses_bytes_and_blocks_nothing(tcp):
-    with running(tcp) as it:
-        port = open_port(it.ports["lidar"])
-        port.write(motor_pwm(660) + request(Command.SCAN))
-        if tcp is None:
-            until(lambda: it.dropped["lidar"] > 0)
-        port.close()
-        with RPLidar(it.ports["lidar"]) as lidar:
-            assert lidar.revolution(timeout=PATIENCE)
 
 
 def test_data_that_no_client_takes_are_dropped_and_counted():
@@ -258,6 +245,7 @@ def test_terminated_the_command_leaves_no_ports_behind():
         (["--tcp", "--host", "203.0.113.7"], "the emulator cannot listen"),
         (["--host", "127.0.0.1"], "set a TCP address: add --tcp"),
         (["--tcp", "--fault", "explode"], "unknown command"),
+        (["--carried", "--world", "polygon"], "no walk; available: flat, flat-2"),
     ],
 )
 def test_wrong_words_are_reported_in_a_line(words, message, capsys):

@@ -91,33 +91,6 @@ def test_a_body_follows_the_same_path_however_often_it_is_sampled(pauses):
     np.testing.assert_allclose(often.pose_at(times), once.pose_at(times), atol=1e-12)
 
 
-def test_full_speed_is_as_fast_as_specified():
-    robot = body_in(HALL)
-    robot.advance(100, 0, 0.0)
-    robot.advance(100, 0, 5.0)
-    np.testing.assert_allclose(robot.pose_at(np.array([5.0]))[0], [2.0, 0, 0], atol=1e-6)
-    robot.advance(0, -100, 5.0)
-    assert abs(robot.pose_at(np.array([6.0]))[0, 2] - np.radians(-100)) < 0.05
-
-
-def test_a_count_has_its_calibrated_length():
-    robot = body_in(HALL, counts=(0.0103, np.radians(2.14)))
-    robot.advance(50, 0, 0.0)
-    robot.advance(50, 0, 10.0)
-    assert abs(robot.counters()[0] * 0.0103 - 2.0) < 0.0206 and robot.counters()[1] in (-1, 0)
-    robot.advance(0, 50, 10.0)
-    robot.advance(0, 50, 14.0)
-    assert abs(robot.counters()[1] * 2.14 - 200) < 2.5
-
-
-def test_backwards_and_in_circles_the_path_counts_with_its_sign():
-    robot = body_in(HALL, counts=(0.01, np.radians(2)))
-    robot.advance(-50, 50, 0.0)
-    robot.advance(-50, 50, 8.0)
-    path, angle = robot.counters()
-    assert abs(path + 160) <= 1 and abs(angle - 200) <= 1
-
-
 def test_slip_is_what_the_counters_do_not_measure():
     measured, true = [], []
     for seed in range(12):

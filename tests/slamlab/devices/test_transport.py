@@ -8,20 +8,7 @@ import sys
 
 import pytest
 
-from slamlab.devices.errors import (
-    ConnectionLost,
-    DataTimeout,
-    DeviceFault,
-    DeviceNotResponding,
-    DeviceSilent,
-    PortBusy,
-    PortError,
-    PortNotFound,
-    PortPermission,
-    ProtocolError,
-    SlamlabError,
-    UnsupportedMode,
-)
+from slamlab.devices import errors
 from slamlab.devices.serial_ports import serial_open_error
 from slamlab.devices.transport import open_port
 from tests.timeouts import PATIENCE
@@ -58,7 +45,7 @@ def test_bytes_go_both_ways_through_a_terminal(terminal):
 @terminals
 def test_a_port_belongs_to_one_program_at_a_time(terminal):
     port = open_port(terminal[1])
-    with pytest.raises(PortBusy, match="another program"):
+    with pytest.raises(errors.PortBusy, match="another program"):
         open_port(terminal[1])
     port.close()
     open_port(terminal[1]).close()
@@ -73,7 +60,7 @@ def test_a_closed_other_end_is_a_lost_connection():
     port = open_port(os.ttyname(end))
     os.close(end)
     os.close(other)
-    with pytest.raises(ConnectionLost):
+    with pytest.raises(errors.ConnectionLost):
         for _ in range(3):
             port.read(10, 0.1)
     port.close()
@@ -85,7 +72,7 @@ def test_reading_a_closed_port_raises_connection_lost(terminal):
     assert port.set_dtr(True) in (True, False)  # a terminal may have no modem lines
     port.close()
     for use in (lambda: port.read(1, 0.1), lambda: port.write(b"x")):
-        with pytest.raises(ConnectionLost):
+        with pytest.raises(errors.ConnectionLost):
             use()
     assert not port.set_dtr(True)
 
@@ -101,38 +88,38 @@ def test_tcp_goes_both_ways_and_its_end_is_a_lost_connection():
     port.write(b"back")
     assert other.recv(10) == b"back"
     other.close()
-    with pytest.raises(ConnectionLost):
+    with pytest.raises(errors.ConnectionLost):
         port.read(10, 5.0)
     port.close()
     port.close()
-    with pytest.raises(ConnectionLost):
+    with pytest.raises(errors.ConnectionLost):
         port.read(10, 0.1)
     server.close()
-    with pytest.raises(PortNotFound, match="emulator"):
+    with pytest.raises(errors.PortNotFound, match="emulator"):
         open_port(name)
 
 
 @pytest.mark.parametrize("name", ["socket://here", "socket://here:there", "socket://x:99999999"])
 def test_a_tcp_name_that_is_invalid_is_refused(name):
-    with pytest.raises(PortError, match="What to do:"):
+    with pytest.raises(errors.PortError, match="What to do:"):
         open_port(name)
 
 
 def test_a_port_that_is_not_there_is_named_with_those_that_are():
-    with pytest.raises(PortNotFound, match="Available ports"):
+    with pytest.raises(errors.PortNotFound, match="Available ports"):
         open_port("/dev/ttyNOSUCH0")
 
 
 @pytest.mark.parametrize(
     ("error", "kind"),
     [
-        (OSError(errno.EACCES, "denied"), PortPermission),
-        (OSError(errno.EAGAIN, "locked"), PortBusy),
-        (OSError(errno.EBUSY, "busy"), PortBusy),
-        (OSError(errno.ENOENT, "none"), PortNotFound),
-        (OSError("could not open port 'COM7': FileNotFoundError(2, …)"), PortNotFound),
-        (OSError(errno.ENOTTY, "no terminal"), PortError),
-        (ValueError("Invalid baud rate"), PortError),
+        (OSError(errno.EACCES, "denied"), errors.PortPermission),
+        (OSError(errno.EAGAIN, "locked"), errors.PortBusy),
+        (OSError(errno.EBUSY, "busy"), errors.PortBusy),
+        (OSError(errno.ENOENT, "none"), errors.PortNotFound),
+        (OSError("could not open port 'COM7': FileNotFoundError(2, …)"), errors.PortNotFound),
+        (OSError(errno.ENOTTY, "no terminal"), errors.PortError),
+        (ValueError("Invalid baud rate"), errors.PortError),
     ],
 )
 def test_a_refusal_is_of_its_kind_and_states_what_to_do(error, kind):
@@ -144,26 +131,40 @@ def test_a_refusal_is_of_its_kind_and_states_what_to_do(error, kind):
 def test_on_windows_a_busy_port_is_not_reported_as_permission_denied(monkeypatch):
     monkeypatch.setattr(sys, "platform", "win32")
     error = OSError("could not open port 'COM3': PermissionError(13, 'Access is denied.')")
-    assert type(serial_open_error("COM3", error)) is PortBusy
+    assert type(serial_open_error("COM3", error)) is errors.PortBusy
 
     text = "Cannot configure port, something went wrong. Original message: PermissionError(13, '')"
-    assert type(serial_open_error("COM3", OSError(text))) is PortError  # the baud rate is unknown
+    assert (
+        type(serial_open_error("COM3", OSError(text))) is errors.PortError
+    )  # the baud rate is unknown
 
 
 @terminals
 def test_an_unsupported_baud_rate_is_refused(terminal):
-    with pytest.raises(PortError, match="does not support the baud rate") as refused:
+    with pytest.raises(errors.PortError, match="does not support the baud rate") as refused:
         open_port(terminal[1], 10**30)
-    assert type(refused.value) is PortError
+    assert type(refused.value) is errors.PortError
 
 
 def test_errors_are_of_python_s_kinds_too():
-    assert issubclass(PortError, OSError) and issubclass(PortNotFound, FileNotFoundError)
-    assert issubclass(ConnectionLost, ConnectionError)
-    assert issubclass(DataTimeout, TimeoutError) and issubclass(DeviceNotResponding, TimeoutError)
-    assert issubclass(DeviceSilent, ConnectionLost) and issubclass(DeviceSilent, DataTimeout)
-    for kind in (PortError, ProtocolError, DeviceFault, ConnectionLost, UnsupportedMode):
-        assert issubclass(kind, SlamlabError)
+    assert issubclass(errors.PortError, OSError) and issubclass(
+        errors.PortNotFound, FileNotFoundError
+    )
+    assert issubclass(errors.ConnectionLost, ConnectionError)
+    assert issubclass(errors.DataTimeout, TimeoutError) and issubclass(
+        errors.DeviceNotResponding, TimeoutError
+    )
+    assert issubclass(errors.DeviceSilent, errors.ConnectionLost) and issubclass(
+        errors.DeviceSilent, errors.DataTimeout
+    )
+    for kind in (
+        errors.PortError,
+        errors.ProtocolError,
+        errors.DeviceFault,
+        errors.ConnectionLost,
+        errors.UnsupportedMode,
+    ):
+        assert issubclass(kind, errors.SlamlabError)
 
 
 @terminals

@@ -52,12 +52,7 @@ def content(made):
 
 
 def damaged(made):
-    """Damaged films, and parts of the error messages of the command and the page.
-
-    Returns
-    -------
-    list of (bytes, str that the command says, str that the page says)
-    """
+    """Damaged films (bytes), each with part of what the command says, and of what the page says."""
     whole = content(made)
     packed = gzip.compress(whole)
     flipped = bytearray(packed)

@@ -4,13 +4,7 @@ ALT = "two walls that meet"
 
 
 class Displays:
-    """Stands for IPython: remembers what is displayed, each display as it is now.
-
-    Parameters
-    ----------
-    monkeypatch : pytest's
-    modules : those that show widgets
-    """
+    """Stands for IPython: remembers what is displayed, and the widgets that modules show."""
 
     def __init__(self, monkeypatch, *modules):
         self.widgets, self.bundles, outer = [], [], self

@@ -120,13 +120,6 @@ def test_without_anywidget_a_raster_picture_is_shown(stored, monkeypatch):
     assert loop.screen.sent == 1
 
 
-def test_views_load_anywidget_only_for_a_live_view():
-    import subprocess
-
-    code = "import slamlab.views, sys; sys.exit('anywidget' in sys.modules)"
-    assert subprocess.run([sys.executable, "-c", code]).returncode == 0
-
-
 @pytest.mark.parametrize(("world", "name"), [("room", "icp"), ("landmarks", "mak")])
 def test_it_runs_what_the_course_has(stored, world, name):
     loop = live.watch(

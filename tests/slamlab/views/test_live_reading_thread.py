@@ -30,7 +30,7 @@ class Device(Source):
 
     def __init__(self, rng=None):
         super().__init__()
-        self.closed, self.inside, self.most = False, 0, 0
+        self.closed, self.inside, self.most, self.commands = False, 0, 0, []
         self._coming = queue.Queue()
 
     def __iter__(self):
@@ -57,10 +57,6 @@ class Device(Source):
 
 class Robot(Device):
     """A device that can be driven and whose readings come in their own time."""
-
-    def __init__(self, rng=None):
-        super().__init__()
-        self.commands = []
 
     def drive(self, command):
         self.commands.append(command)

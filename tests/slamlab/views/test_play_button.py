@@ -47,7 +47,7 @@ class Film:
         self.steps.append(step)
         if step == self.fails_at:
             raise ZeroDivisionError
-        return views.chart("t [s]", "x [m]")[0]
+        return views.chart("t [s]", "x [m]", size=(2, 2))[0]
 
 
 def idle():

@@ -14,13 +14,7 @@ def run(coroutine):
 
 
 class Client:
-    """A client of a server; each request has its own connection.
-
-    Parameters
-    ----------
-    port : int
-    address : str, of the client
-    """
+    """A client of a server at a port, from an address; each request has its own connection."""
 
     def __init__(self, port, address="127.0.0.1"):
         self.port, self.address = port, address
@@ -32,16 +26,10 @@ class Client:
         return await asyncio.open_connection("127.0.0.1", self.port, local_addr=(self.address, 0))
 
     async def send(self, raw, read=asyncio.StreamReader.read):
-        """Send bytes and read the response until the server closes.
+        """Send bytes; the response, or no bytes if the connection was closed without one.
 
-        Parameters
-        ----------
-        raw : bytes
-        read : coroutine function (StreamReader) -> bytes, to read less
-
-        Returns
-        -------
-        bytes, the response; empty if the connection was closed without one
+        ``read`` is a coroutine function of a StreamReader; as given it reads until the server
+        closes.
         """
         try:
             reader, writer = await self.connect()
@@ -60,24 +48,13 @@ class Client:
     async def ask(self, method, path, content=None, drop=(), **headers):
         """Send a request as a browser on the server's own page, except for what is given.
 
-        Parameters
-        ----------
-        method, path : str
-        content : as JSON, or bytes, or None
-        drop : names of headers to leave out
-        headers : more headers, or other values; ``_`` stands for a hyphen
-
-        Returns
-        -------
-        (int, dict, bytes) : status (0 without an answer), headers in lower case, body
+        The content is sent as JSON, or as bytes. ``drop`` names headers to leave out; in the names
+        of more headers, ``_`` stands for a hyphen. The answer is the status (0 without one), the
+        headers in lower case, and the body.
         """
-        body = (
-            content
-            if isinstance(content, bytes)
-            else b""
-            if content is None
-            else json.dumps(content).encode()
-        )
+        body = b"" if content is None else content
+        if not isinstance(body, bytes):
+            body = json.dumps(body).encode()
         sent = {"host": self.own, "connection": "close", "content-length": len(body)}
         if method not in ("GET", "HEAD"):
             sent["origin"] = f"http://{self.own}"
