@@ -23,16 +23,8 @@ PACKAGES = [
     path for package in BELOW for path in sorted((ROOT / package).rglob("__init__.py"))
 ]  # fmt: skip
 LAZY = [architecture.dotted(p) for p in PACKAGES if "slamlab._lazy" in p.read_text("utf-8")]
-NAMESAKES = {
-    "__init__.py",
-    "__main__.py",
-    "base.py",
-    "common.py",
-    "session.py",
-    "driver.py",
-    "errors.py",
-    "consistency.py",
-}
+NAMESAKES = {"__init__.py", "__main__.py", "base.py", "common.py", "session.py", "driver.py"}
+NAMESAKES |= {"errors.py", "consistency.py"}
 """The same part of several components or devices."""
 
 

@@ -123,14 +123,6 @@ def test_the_command_writes_a_line_for_every_filter_and_kind(tmp_path, capsys, b
     assert table["cost"]["over_smallest"]["bor"][0] == table["cost"]["over_bor"]["bor"] == 1
 
 
-def test_the_same_seed_gives_the_same_errors(brief):
-    first, second = filter_comparison.run(1), filter_comparison.run(1)
-    assert first.keys() == second.keys()
-    for kind, records in first.items():
-        for name, reported in records.items():
-            np.testing.assert_array_equal(reported.errors, second[kind][name].errors)
-
-
 def test_corners_found_once_are_those_that_an_estimator_finds():
     source = ArenaRun(np.random.default_rng(2), laps=1)
     poses = []

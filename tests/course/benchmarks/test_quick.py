@@ -15,15 +15,8 @@ from benchmarks import common
 from benchmarks.__main__ import OF_A_FOLDER, SHARED
 
 KEYS = {"name", "value", "unit", "reference", "ratio"}
-ELSEWHERE = {
-    "films",
-    "grading",
-    "live",
-    "live_page",
-    "project",
-    "raycast",
-    "soak",
-}  # ports, sandboxes, a browser; a test of its own
+# ports, sandboxes, a browser; a test of its own
+ELSEWHERE = {"films", "grading", "live", "live_page", "project", "raycast", "soak"}
 
 SMALL = {  # what is set to run in seconds, and what the rows must compare: (name, reference)
     "accuracy": (

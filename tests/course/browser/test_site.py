@@ -17,14 +17,8 @@ from tests.timeouts import until
 
 pytestmark = pytest.mark.slow
 SCREENS = {"desktop": (1280, "light"), "dark": (1280, "dark"), "phone": (390, "light")}
-PAGES = (
-    "index",
-    "notebooks/04_models_and_jacobians",
-    "exercises/ex04_models_and_jacobians",
-    "guides/architecture",
-    "notebooks/in_print",
-    "literature",
-)
+PAGES = ["index", "literature", "guides/architecture", "notebooks/in_print"]
+PAGES += ["notebooks/04_models_and_jacobians", "exercises/ex04_models_and_jacobians"]
 MOVING = "notebooks/01_why_slam.html"
 TO_ITS_START = """
 (film) => {

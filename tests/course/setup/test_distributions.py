@@ -17,29 +17,10 @@ pytestmark = pytest.mark.slow
 MOST_DISTRIBUTIONS = 20
 NOT_COUNTED = {"pip", "setuptools"}
 HEAVY = {"numpy", "scipy", "matplotlib", "sympy", "IPython", "ipywidgets", "tornado", "filterpy"}
-OWN = {
-    "run",
-    "live",
-    "film",
-    "convert",
-    "optimise",
-    "emulate",
-    "record",
-    "replay",
-    "completion",
-    "data",
-}
-OF_THE_CLASS = {
-    "check",
-    "collect",
-    "progress",
-    "reset",
-    "update",
-    "rehearse",
-    "handout",
-    "grade",
-    "contest",
-}
+OWN = {"run", "live", "film", "convert", "optimise", "emulate", "record", "replay", "data"}
+OWN |= {"completion"}
+OF_THE_CLASS = {"check", "collect", "progress", "reset", "update", "rehearse", "handout"}
+OF_THE_CLASS |= {"grade", "contest"}
 
 
 class Environment:
