@@ -70,15 +70,3 @@ def predict_wheels(x, P, s, B, k):
     W = np.column_stack([(end(x, s + h * e) - end(x, s - h * e)) / (2 * h) for e in np.eye(2)])
     C = k**2 * np.diag(np.abs(s))
     return end(x, s), A @ P @ A.T + W @ C @ W.T, A, W
-
-# %% wrong: the noise of the mean distance and the turn, as in the lesson
-def predict_wheels(x, P, s, B, k):
-    d, a = (s[0] + s[1]) / 2, (s[1] - s[0]) / B
-    h = a / 2
-    f = np.sinc(h / np.pi)
-    df = (np.cos(h) - f) / h if h else 0
-    c, n = np.cos(x[2] + h), np.sin(x[2] + h)
-    A = np.array([[1, 0, -d * f * n], [0, 1, d * f * c], [0, 0, 1]])
-    V = np.array([[f * c, d * (df * c - f * n) / 2], [f * n, d * (df * n + f * c) / 2], [0, 1]])
-    C = k**2 * np.diag([abs(d), abs(a)])
-    return x + [d * f * c, d * f * n, a], A @ P @ A.T + V @ C @ V.T, A, V @ [[0.5, 0.5], [-1 / B, 1 / B]]

@@ -87,21 +87,6 @@ def alternate(x, P, drives, ids, zs, C, R):
         xs[k], Ps[k] = x, P
     return xs, Ps, book
 
-# %% wrong: each exact for the other, as the first scheme of the lesson
-def alternate(x, P, drives, ids, zs, C, R):
-    xs, Ps, book = [], [], {}
-    for u, i, z in zip(drives, ids, zs):
-        x, P = predict(x, P, u, C)
-        if i in book:
-            p, L = book[i]
-            book[i] = update_landmark(p, L, x, z, R)
-            x, P = locate(x, P, z, p, R)
-        elif i >= 0:
-            book[i] = g(x, z), J_z(x, z) @ R @ J_z(x, z).T
-        xs.append(x)
-        Ps.append(P)
-    return np.array(xs), np.array(Ps), book
-
 # %% wrong: the landmark from the corrected pose
 def alternate(x, P, drives, ids, zs, C, R):
     xs, Ps, book = [], [], {}

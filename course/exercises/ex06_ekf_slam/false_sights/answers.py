@@ -98,21 +98,6 @@ def careful_step(x, P, ids, u, seen, z, C, R):
             ids.append(i)
     return x, P, ids
 
-# %% wrong: a gate by R alone, open where all the map is seen or the robot turns
-def careful_step(x, P, ids, u, seen, z, C, R):
-    x, P = predict(x, P, u, C)
-    for i, one in zip(seen, z):
-        if i in ids:
-            j = ids.index(i)
-            v = one - h(x[:3], x[3 + 2 * j : 5 + 2 * j])
-            v[1] = wrap(v[1])
-            if v @ np.linalg.solve(R, v) < 50 or len(seen) == len(ids) or abs(u[0]) < 0.1:
-                x, P = update(x, P, one, j, R)
-        else:
-            x, P = augment(x, P, one, R)
-            ids = [*ids, i]
-    return x, P, ids
-
 # %% wrong: P always of one size
 last = [None]
 

@@ -188,13 +188,6 @@ def survey(morning, door, z, sigma):
     P = np.linalg.inv(A.T @ W @ A)
     return P @ A.T @ W @ z, P
 
-# %% wrong: first morning taken as exact
-def survey(morning, door, z, sigma):
-    m, n = door.max() + 1, morning.max() + 1
-    J = np.hstack([np.eye(m)[door], np.eye(n)[morning][:, 1:]])
-    C = np.linalg.inv(J.T @ J)
-    return (C @ J.T @ z)[:m], sigma**2 * C[:m, :m]
-
 # %% wrong: cheat: says that it knows nothing
 def survey(morning, door, z, sigma):
     m = door.max() + 1

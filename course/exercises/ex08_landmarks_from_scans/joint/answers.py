@@ -87,25 +87,6 @@ def associate_jointly(z, expected, H, P, R, gates):
             best = (-len(pairs), c, walls)
     return list(best[2]), best[1]
 
-# %% wrong: sum of the single d², with the joint gate
-def associate_jointly(z, expected, H, P, R, gates):
-    from itertools import product
-    D = np.zeros((len(z), len(expected)))
-    for i in range(len(z)):
-        for j in range(len(expected)):
-            v = z[i] - expected[j]
-            v[1] = wrap(v[1])
-            D[i, j] = v @ np.linalg.inv(H[j] @ P @ H[j].T + R) @ v
-    best, answer = (0, 0.0), [None] * len(z)
-    for walls in product([None, *range(len(expected))], repeat=len(z)):
-        pairs = [(i, j) for i, j in enumerate(walls) if j is not None]
-        if len({j for _, j in pairs}) < len(pairs) or any(D[p] > gates[2] for p in pairs):
-            continue
-        total = sum(D[p] for p in pairs)
-        if total <= gates[2 * len(pairs)] and (-len(pairs), total) < best:
-            best, answer = (-len(pairs), total), list(walls)
-    return answer, best[1]
-
 # %% wrong: nearest neighbours, of which the worst pair is removed until they are compatible
 def associate_jointly(z, expected, H, P, R, gates):
     def d2(pairs):

@@ -170,18 +170,6 @@ def end_point(x, P, j, beta, sigma):
     r = (x[k] - c * x[0] - s * x[1]) / (c * u[0] + s * u[1])
     return x[:2] + r * u, P[:2, :2] + (r * sigma) ** 2 * np.eye(2), np.zeros((2, len(x)))
 
-# %% wrong: range of the end from the origin
-def end_point(x, P, j, beta, sigma):
-    def f(s):
-        rho, a, t = s[3 + 2 * j], s[4 + 2 * j], s[2] + s[-1]
-        u = np.array([np.cos(t), np.sin(t)])
-        return s[:2] + rho / np.cos(t - a) * u
-    s = np.append(x, beta)
-    J = np.array([(f(s + e) - f(s - e)) / 2e-6 for e in 1e-6 * np.eye(len(s))]).T
-    C = np.zeros((len(s), len(s)))
-    C[:-1, :-1], C[-1, -1] = P, sigma ** 2
-    return f(s), J @ C @ J.T, J[:, :-1] @ P
-
 # %% wrong: β from the world's x
 def end_point(x, P, j, beta, sigma):
     def f(s, b):

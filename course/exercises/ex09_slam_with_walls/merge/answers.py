@@ -92,46 +92,6 @@ def merge(x, P, i, j):
     keep = [k for k in range(n) if k != b and k != b + 1]
     return step @ W @ step, (x + step)[keep], Q[np.ix_(keep, keep)]
 
-# %% wrong: (09.3) and (09.4) as printed, for any normals
-def merge(x, P, i, j):
-    H = np.zeros((2, len(x)))
-    H[:, 3 + 2 * i : 5 + 2 * i], H[:, 3 + 2 * j : 5 + 2 * j] = -np.eye(2), np.eye(2)
-    d = H @ x
-    d[1] = wrap(d[1])
-    S = H @ P @ H.T
-    K = P @ H.T @ np.linalg.inv(S)
-    x, P = x - K @ d, P - K @ H @ P
-    gone = [3 + 2 * j, 4 + 2 * j]
-    return d @ np.linalg.inv(S) @ d, np.delete(x, gone), np.delete(np.delete(P, gone, 0), gone, 1)
-
-# %% wrong: angle modulo π, ρ as it is
-def merge(x, P, i, j):
-    H = np.zeros((2, len(x)))
-    H[:, 3 + 2 * i : 5 + 2 * i], H[:, 3 + 2 * j : 5 + 2 * j] = -np.eye(2), np.eye(2)
-    d = H @ x
-    d[1] = (d[1] + np.pi / 2) % np.pi - np.pi / 2
-    S = H @ P @ H.T
-    K = P @ H.T @ np.linalg.inv(S)
-    x, P = x - K @ d, P - K @ H @ P
-    gone = [3 + 2 * j, 4 + 2 * j]
-    return d @ np.linalg.inv(S) @ d, np.delete(x, gone), np.delete(np.delete(P, gone, 0), gone, 1)
-
-# %% wrong: opposite normals made parallel in x alone, not in P
-def merge(x, P, i, j):
-    x = x.copy()
-    a, b = 3 + 2 * i, 3 + 2 * j
-    if abs(wrap(x[a + 1] - x[b + 1])) > np.pi / 2:
-        x[b] = -x[b]
-        x[b + 1] = wrap(x[b + 1] + np.pi)
-    H = np.zeros((2, len(x)))
-    H[:, a : a + 2], H[:, b : b + 2] = -np.eye(2), np.eye(2)
-    v = np.array([x[a] - x[b], wrap(x[a + 1] - x[b + 1])])
-    S = H @ P @ H.T
-    K = P @ H.T @ np.linalg.inv(S)
-    x, P = x + K @ v, P - K @ S @ K.T
-    gone = [b, b + 1]
-    return v @ np.linalg.inv(S) @ v, np.delete(x, gone), np.delete(np.delete(P, gone, 0), gone, 1)
-
 # %% wrong: by 100 000 samples of the state
 def merge(x, P, i, j):
     rng = np.random.default_rng(1)

@@ -102,15 +102,6 @@ def nodes(data):
             found.append([flags % 2, flags // 4, word // 128, distance // 4])
     return np.array(found)
 
-# %% wrong: uint8 overflows in the shift
-def nodes(data):
-    b = np.frombuffer(bytes(data), np.uint8).reshape(-1, 5)
-    s = b[:, 0] & 1
-    ok = (s != (b[:, 0] >> 1 & 1)) & (b[:, 1] & 1 == 1)
-    angle = (b[:, 1] | b[:, 2] << 8) >> 1
-    dist = b[:, 3] | b[:, 4] << 8
-    return np.column_stack([s, b[:, 0] >> 2, angle / 64, dist / 4])[ok]
-
 # %% wrong: not S compared without its shift
 def nodes(data):
     found = []
