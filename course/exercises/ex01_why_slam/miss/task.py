@@ -137,6 +137,7 @@ MISS = Task(
         Probe("forty steps", lambda rng: _drives(rng, 2, 40), ("both",)),
     ),
     parts=lambda i, o: {"result": np.arcsinh(o["result"])},  # the long runs would hide all others
+    needs=("01-seen-from",),
     begins=(
         "A single step along +x is 2 % too long. How far does it move the end in x, and in y?",
         "A single heading error occurs at pose k. Which part of the trajectory does it turn?",

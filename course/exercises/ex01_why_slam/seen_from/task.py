@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from classroom.exercises.references import Reference
 from classroom.exercises.task import Probe, Task
 from course.exercises.ex01_why_slam import motions
 from course.exercises.ex01_why_slam.calls import CALLS
@@ -80,6 +81,7 @@ SEEN_FROM = Task(
         Probe("poses far apart", _far),
     ),
     parts=motions.parts_of_a_pose,
+    references=(Reference("seen_from", "a b", _want),),
     begins=(
         "Which step leads from a to b if a faces along +x, and which if a faces along +y?",
         "Which vector leads from the position of a to the position of b?",

@@ -337,6 +337,7 @@ WARY = Task(
         ),
     ),
     may_round=False,
+    needs=("03-update",),
     begins=(
         "How would you decide by hand whether a reading is an outlier?",
         "Which part of the Kalman filter may stay as it is, whether a reading is an "

@@ -168,6 +168,7 @@ TASK = Task(
     diagnoses=(differences(_H),),
     parts=_parts,
     may_round=False,  # a rounded landmark may lie behind the camera
+    needs=("04-h-robot",),
     begins=(
         "The robot is at the origin with heading 0, and the camera is at its centre. "
         "Where does a landmark at (2, 1) appear?",

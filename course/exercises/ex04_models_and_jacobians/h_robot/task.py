@@ -3,6 +3,7 @@
 import numpy as np
 
 from classroom.exercises.correctness_laws import equals
+from classroom.exercises.references import Reference
 from classroom.exercises.task import Probe, Task
 from course.exercises.ex04_models_and_jacobians.calls import CALLS
 from course.exercises.ex04_models_and_jacobians.generic import polar, poses
@@ -137,6 +138,7 @@ TASK = Task(
     diagnoses=(differences(_by_robot),),
     parts=_parts,
     may_round=_promised,
+    references=(Reference("H_robot", "x p", _by_robot),),
     begins=(
         "The landmark is 2 m ahead. By how much does the range change if the robot "
         "moves 1 cm ahead?",

@@ -3,7 +3,6 @@
 import numpy as np
 
 from classroom.exercises.correctness_laws import equals
-from classroom.exercises.references import Reference
 from classroom.exercises.task import Probe, Task
 from course.exercises.ex04_models_and_jacobians.calls import CALLS
 from course.exercises.ex04_models_and_jacobians.generic import polar, poses
@@ -125,10 +124,7 @@ TASK = Task(
     diagnoses=(differences(_both),),
     parts=_parts,
     may_round=_promised,
-    references=(
-        Reference("J_xr", "x z", lambda i: {"result": by_pose(i)}),
-        Reference("J_z", "x z", lambda i: {"result": by_measurement(i)}),
-    ),
+    needs=("04-h-robot",),
     begins=(
         "The landmark lies in the direction of the x axis. Which coordinate changes "
         "if the range grows by 1 cm?",

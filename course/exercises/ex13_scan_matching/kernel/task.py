@@ -3,6 +3,7 @@
 import numpy as np
 
 from classroom.exercises.correctness_laws import equals
+from classroom.exercises.references import Reference
 from classroom.exercises.task import Probe, Task
 from course.exercises.ex13_scan_matching.calls import CALLS
 from course.exercises.ex13_scan_matching.icp.task import by_rounds, judged_at, sliding
@@ -100,6 +101,8 @@ KERNEL = Task(
     ),
     parts=lambda inputs, outputs: by_rounds(inputs, outputs, want),
     may_round=False,
+    needs=("13-best-motion",),
+    references=(Reference("robust_icp", "source target T rounds c", want),),
     begins=(
         "Differentiate ρ. Which weights have correspondences of 0, c and 10c, as fractions of the "
         "first one?",

@@ -6,6 +6,7 @@ import numpy as np
 
 from classroom.exercises.correctness_laws import equals
 from classroom.exercises.function_calls.run_and_pack import MAIN
+from classroom.exercises.references import Reference
 from classroom.exercises.task import Probe, Task
 from course.exercises.ex13_scan_matching.calls import CALLS
 from course.exercises.ex13_scan_matching.motions import carried, either_sign, motion
@@ -147,6 +148,7 @@ LINE_STEP = Task(
     diagnoses=tuple(differences(lambda i: {"P": want(i)["P"]}, on) for on in (NAME, MAIN)),
     parts=lambda inputs, outputs: {name: outputs[name] for name in ("delta", "P")},
     may_round=False,
+    references=(Reference("line_step", "source target normals sigma T Q", want, "delta P"),),
     begins=(
         "A point is 10 cm before the wall, and its normal points along x of the "
         "robot. By which motion of the robot does the residual become zero?",

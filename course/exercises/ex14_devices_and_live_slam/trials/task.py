@@ -272,6 +272,7 @@ TRIALS = Task(
             "contain. How many are there in all?",
         ),
     ),
+    needs=("14-unwrap",),
     begins=(
         "A robot drives 3 counts forwards and then 2 backwards. Which readings and "
         "which counts does this test case contain, if the first reading is 10?",

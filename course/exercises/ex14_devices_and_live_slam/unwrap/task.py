@@ -3,6 +3,7 @@
 import numpy as np
 
 from classroom.exercises.correctness_laws import Law
+from classroom.exercises.references import Reference
 from classroom.exercises.task import Probe, Task
 from course.exercises.ex14_devices_and_live_slam.calls import CALLS
 
@@ -120,6 +121,7 @@ UNWRAP = Task(
         Probe("a long drive", _by_steps([121] * 300, [-121] * 300)),
         Probe("all steps from −127 to 127", _all_steps),
     ),
+    references=(Reference("unwrap", "values", _wanted),),
     begins=(
         "The readings are 5, 8 and 6. Which counts do you return?",
         "A wheel turns forwards by 10 counts, and the first reading is 120. What is "

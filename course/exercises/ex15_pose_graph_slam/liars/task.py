@@ -173,6 +173,7 @@ LIARS = Task(
         Probe("a single loop", _once, (STEPS[0].name,)),
     ),
     may_round=False,
+    needs=("15-jacobians",),
     begins=(
         "Odometry predicts where each loop should lead. How accurate is this prediction after many "
         "steps?",
