@@ -40,9 +40,12 @@ from slamlab.layers import Boxes, Points
 # **Your task.** Return the smallest box that contains every possible position of the robot after
 # the motion. The distance is negative if the robot drives backwards. Any interval may have zero
 # width. The interval of $\theta + \delta$ may be wider than a whole turn, and $\delta$ may be
-# several turns, such as 14 rad. The check allows an error of $10^{-8}$ m for each side. First write
-# a function `cosine_range(low, high)`. How can you compute the range of the sine with this
-# function?
+# several turns, such as 14 rad. The check allows an error of $10^{-8}$ m for each side.
+#
+# Interval arithmetic gives this box in three steps: the *interval of directions* $\theta+\delta$; the
+# *range of its cosine and its sine*; the *products* of these ranges with the interval of $d$, which
+# are added to the box. For the second step first write a function `cosine_range(low, high)`. How can
+# you compute the range of the sine with this function?
 
 
 # %%
@@ -106,8 +109,10 @@ def _():
 # c]`. It allows the points with $a x + b y \le c$. Its normal $(a, b)$, which is $n$ in the lesson,
 # points out of the sector.
 #
-# Draw the sector and its near edge, (10.6). The robot can be anywhere in its box. Which point of
-# the box gives the maximum in (10.8) for each edge?
+# Proceed in three steps: `direction` and $d_{\mathrm{abs}}$; the *normal* of each edge, and its $c$ for a
+# robot at the origin; the *shift* of $c$ by the robot's box (10.8). Draw the sector and its near edge,
+# (10.6). Which point of the box gives the maximum in (10.8) for each edge? You may also compare several
+# points of the sector and of the box, if the points of the maximum are among them.
 #
 # **Your task.** Return four rows, in the order far, near, left, right, moved outwards by the
 # robot's box (10.8). The far and the near edge touch the sector, as in (10.6). In this task
@@ -202,11 +207,15 @@ ask(
 # always one interval. The bearing lies in $(-\pi, \pi]$. The given heading interval may be wider
 # than $\pi$, but the widths of both heading intervals together are less than $2\pi$.
 #
-# Two angles that differ by $2\pi$ are the same direction, so add multiples of $2\pi$ until the angles
-# that you compare differ by less than $\pi$. All directions from box to box lie within half a turn, so
-# for these you can choose one direction and `wrap` the differences of the others from it. For a
-# heading interval this is wrong if it is wider than $\pi$: move such an interval as a whole, by
-# adding the same multiple of $2\pi$ to both ends.
+# Proceed in four steps: the two *extreme directions*; the *heading by the measurement alone* that follows
+# from them, `bearing` and `bound`; this interval on the *same turn* as the given heading; the
+# *intersection* of both intervals.
+#
+# Two angles that differ by $2\pi$ are the same direction. All directions from box to box lie within half
+# a turn, so in the first step you can choose one direction and `wrap` the differences of the others from
+# it. For a heading interval this is wrong if it is wider than $\pi$: in the third step move the interval
+# as a whole, by adding the same multiple of $2\pi$ to both ends, until the middles of both intervals
+# differ by less than $\pi$.
 #
 # The check allows an error of $10^{-7}$ rad for each end, modulo $2\pi$, also if the heading is
 # unchanged. So a result on another turn is right, but left must be at least right.
@@ -372,6 +381,20 @@ def clip(box, edge):
     return np.array([x_min, x_max, y_min, y_max])
 
 
+def clip_polygon(corners, edge):
+    """Corners (x, y) of the part of a convex polygon that an edge allows; [] if none remains."""
+    a, b, c = edge
+    kept = []
+    for (x, y), (u, v) in zip(corners, [*corners[1:], *corners[:1]], strict=True):
+        here, there = c - a * x - b * y, c - a * u - b * v
+        if here >= 0:
+            kept.append((x, y))
+        if (here >= 0) != (there >= 0):
+            t = here / (here - there)
+            kept.append((x + t * (u - x), y + t * (v - y)))
+    return kept
+
+
 def cut(box, lines):
     """A box clipped by one edge after the other; None if it becomes empty."""
     for line in lines:
@@ -403,10 +426,13 @@ def look(robot, heading, objects, z, bounds):
 # only a part of the heading interval, it may not agree. What your `sharpen` returns then is not
 # specified in task 3, so test it before you use it in this way.
 #
-# There are two reasons for the large width. First, the edges must hold for *all* headings of the
-# interval at once. How would the edges change if the heading interval were ten times narrower?
-# Second, after each edge a box replaces the remaining set. Which excluded positions does this box
-# contain again?
+# There are two reasons for the large width, and each has its method. First, the edges must hold for *all*
+# headings of the interval at once. *Slicing* divides the interval into pieces that are processed
+# separately. Second, after each edge a box replaces the remaining set. *Polygon clipping* (Sutherland and
+# Hodgman) keeps the remaining polygon instead: `clip_polygon` clips it by one edge. Both can be *repeated*
+# with the smaller box and heading. What must the result contain, of which pieces? Another method is to
+# divide the box of all poses $(x, y, \theta)$ into small cells, and to exclude those that certainly contain
+# no feasible pose.
 #
 # **Your task.** Return the smallest box and heading that you can *guarantee*, by any method. A
 # pose is **feasible** if it agrees with all measurements and with the given box and heading.
@@ -433,8 +459,8 @@ def look(robot, heading, objects, z, bounds):
 # The number of landmarks may be zero, one, or more, and landmarks may be in the robot's box. left
 # − right is at most 4 rad. `bounds` are above 0, and no range is less than its bound. Bearings
 # lie in $(-\pi, \pi]$. At least one pose is always feasible. A call of `narrow` should take at
-# most 0.1 s. If your `edges` is wrong, the check uses a correct one in its place. The check stops
-# after 20 s.
+# most 0.1 s. If your `edges` or your `sharpen` is wrong, the check uses a correct one in its place.
+# The check stops after 20 s.
 
 
 # %%
@@ -448,26 +474,13 @@ def narrow(robot, heading, objects, z, bounds):
     """
     ### BEGIN SOLUTION
 
-    def rest(corners, edge):
-        """Corners of the part of a polygon that an edge allows; no box replaces it."""
-        a, b, c = edge
-        kept = []
-        for (x, y), (u, v) in zip(corners, corners[1:] + corners[:1], strict=True):
-            here, there = c - a * x - b * y, c - a * u - b * v
-            if here >= 0:
-                kept.append((x, y))
-            if (here >= 0) != (there >= 0):
-                t = here / (here - there)
-                kept.append((x + t * (u - x), y + t * (v - y)))
-        return kept
-
     def possible(piece):
         """Corners of all positions that agree with some heading of a piece."""
         x_min, x_max, y_min, y_max = robot
         corners = [(x_min, y_min), (x_max, y_min), (x_max, y_max), (x_min, y_max)]
         for place, sight in zip(objects, z, strict=True):
             for edge in edges(sight, bounds, np.add(piece, np.pi), np.repeat(place, 2)):
-                corners = rest(corners, edge)
+                corners = clip_polygon(corners, edge)
             if not corners:
                 break
         return corners

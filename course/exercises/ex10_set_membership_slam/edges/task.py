@@ -94,7 +94,7 @@ def _are(*which):
 
 def _on_the_way(given):
     direction, d_abs = sighting(given)
-    return {"direction": direction, "d_abs": d_abs}
+    return {"direction [rad]": direction, "d_abs [rad]": d_abs}
 
 
 def _law(name, points, says, which, asks):

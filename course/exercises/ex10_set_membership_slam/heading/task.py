@@ -3,6 +3,7 @@
 import numpy as np
 
 from classroom.exercises.correctness_laws import Law
+from classroom.exercises.references import Reference
 from classroom.exercises.task import Probe, Task
 from course.exercises.ex10_set_membership_slam.boxes import off, turned
 from course.exercises.ex10_set_membership_slam.calls import CALLS
@@ -46,7 +47,7 @@ def _overlap(given, out):
 
 
 def _on_the_way(given):
-    return {"the heading by the measurement alone, [right, left]": told(given)}
+    return {"heading by the measurement alone, right and left [rad]": told(given)}
 
 
 def _law(name, points, says, holds, asks, step=_on_the_way):
@@ -111,6 +112,7 @@ HEADING = Task(
         "overlapping": turned(out["result"])[overlap(given)],
     },
     may_round=_promised,
+    references=(Reference("sharpen", "heading robot box bearing bound", sharpened),),
     begins=(
         "The direction from the robot to the landmark depends on two points. Which points of the "
         "two boxes give the smallest and the largest direction?",

@@ -47,18 +47,6 @@ def narrow(robot, heading, objects, z, bounds):
     for _ in range(12):
         robot, heading = look(robot, heading, objects, z, bounds)
 
-    def rest(polygon, a, b, c):
-        kept = []
-        for k, (x, y) in enumerate(polygon):
-            u, v = polygon[k - 1]
-            here, before = a * x + b * y - c, a * u + b * v - c
-            if here * before < 0:
-                t = before / (before - here)
-                kept.append((u + t * (x - u), v + t * (y - v)))
-            if here <= 0:
-                kept.append((x, y))
-        return kept
-
     boxes = []
     width = (heading[1] - heading[0]) / 40
     for k in range(40):
@@ -70,8 +58,8 @@ def narrow(robot, heading, objects, z, bounds):
             (robot[0], robot[3]),
         ]
         for place, sight in zip(objects, z):
-            for a, b, c in edges(sight, bounds, np.add(piece, np.pi), place[[0, 0, 1, 1]]):
-                polygon = rest(polygon, a, b, c)
+            for edge in edges(sight, bounds, np.add(piece, np.pi), place[[0, 0, 1, 1]]):
+                polygon = clip_polygon(polygon, edge)
             if not polygon:
                 break
         if polygon:

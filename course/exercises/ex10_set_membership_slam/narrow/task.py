@@ -111,8 +111,8 @@ def _lesson_name(given):
 
 
 _ON_THE_WAY = {
-    "less": "Cut the interval of the heading into two halves, and call look for each half. Compare "
-    "both boxes with the box for the whole interval.",
+    "less": "Slice the interval of the heading into two halves, and call look for each half. "
+    "Compare both boxes with the box for the whole interval.",
     "small": "Print the widths of box and heading after each round. From which round on do they no "
     "longer change?",
     "smallest": "Take one narrow piece of the heading. Draw all its edges, the polygon between "
@@ -175,7 +175,7 @@ NARROW = Task(
             "point?",
         ),
     ),
-    needs=("10-edges",),
+    needs=("10-edges", "10-heading"),
     begins=(
         "What does one pass of look exclude, and what makes its edges so wide?",
         "Suppose that the heading were known exactly. How could you then find all headings and "

@@ -105,9 +105,13 @@ def hull(given):
     return {"result": given["box"] + np.column_stack(sides)}
 
 
-def _on_the_way(given):
-    course = given["heading"] + given["direction"]
-    return {"heading + direction": course, "its cosine": cosines(*course.T)}
+def _step(axis):
+    def step(given):
+        directions = given["heading"] + given["direction"]
+        turned = directions - (QUARTER if axis == "sine" else 0)
+        return {"directions θ + δ [rad]": directions, f"range of their {axis}": cosines(*turned.T)}
+
+    return step
 
 
 def _sides(name, axis, at):
@@ -121,7 +125,7 @@ def _sides(name, axis, at):
         tolerance=TOLERANCE,
         asks=f"Which motion ends at the smallest {name}', and which at the largest? Is θ + δ of "
         f"this motion at an end of its interval, or inside, where the {axis} has an extreme?",
-        step=_on_the_way,
+        step=_step(axis),
     )
 
 
