@@ -441,9 +441,10 @@ def ghost_drive(rng, steps=50):
 # | 3 | the mean NEES (03.24), without the 10 % of the runs with the largest NEES | 1.62 to 2.2 in clear steps; in doubtful steps 0.6 to 1.36 times that of clear steps | 2 |
 #
 # The points of all rows that you reach are added. Row 3 also requires row 1, but not row 2. Leaving
-# the arguments unchanged is worth another 0.5 points. Row 3 is the hardest: $P$ must be consistent.
-# A consistent filter has a mean NEES of 2. Each $P$ must be positive definite. The check stops
-# after 10 s.
+# the arguments unchanged is worth another 0.5 points. A gate is welcome: with the right width it
+# reaches rows 1 and 2. Row 3 is the hardest, and multiplying the $P$ of a gate does not reach it: the
+# mean NEES must be near 2, as that of a consistent filter, in clear and in doubtful steps. Each $P$
+# must be positive definite. The check stops after 10 s.
 
 
 # %% name="wary-filter"
