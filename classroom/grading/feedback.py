@@ -21,8 +21,8 @@ TEMPLATES = templates(Path(__file__).parent)
 FAILED = "Cells that failed"
 RAN = (
     "Grading runs all code cells once, from top to bottom, in a new kernel and without your other "
-    "files; it goes on after a failed cell. To see the same, choose Kernel → Restart Kernel and "
-    "Run All Cells. Numbers count all cells from the top, those with text, too."
+    "files; it goes on after a failed cell. Kernel → Restart Kernel and Run All Cells does so "
+    "with your files, as far as the first error. Numbers count all cells, those with text, too."
 )
 CLASSES = {KEPT: "kept", BROKEN: "broken", WAITS: "waits"}
 
@@ -64,7 +64,9 @@ def feedback_text(mark: Mark, student=None, zone=None) -> str:
 
 def how_cells_ran(record):
     """Explain to the student how the cells were run."""
-    free = " The failed cells cost no points." * all(verdict.full for verdict in record.verdicts)
+    free = " The failed cells cost no points, so you need not submit again." * all(
+        verdict.full for verdict in record.verdicts
+    )
     return f"{RAN}{free}"
 
 

@@ -11,7 +11,10 @@ SAVE = "save the notebook in JupyterLab and submit it again"
 _DOWNLOAD = (
     "open your notebook in JupyterLab, choose Download in its menu File, and submit this file"
 )
-_EARLIER = f"it does not open in JupyterLab; open an earlier copy, then {SAVE}"
+_EARLIER = (
+    "it does not open in JupyterLab; submit an earlier copy that opens, or copy your solution into "
+    "a new copy of the exercise's notebook"
+)
 _OTHER_KINDS = {
     "%pdf": "a PDF",
     "pk": "a zip",
@@ -101,10 +104,10 @@ def _damage(text, error):
     if conflict:
         line = text.count("\n", 0, conflict.start()) + 1
         return (
-            f"git marked a conflict of two versions in line {line} of the file: copy the file, and "
-            "open it in a text editor; wherever two versions stand between <<<<<<< and >>>>>>>, "
+            f"git marked a conflict of two versions in line {line} of the file: keep a copy of it, "
+            "and open it in a text editor; where two versions stand between <<<<<<< and >>>>>>>, "
             "delete one of them and the lines that begin with <<<<<<<, ======= and >>>>>>>; "
-            f"then {SAVE}"
+            f"then open the file in JupyterLab, and {SAVE}"
         )
     begin = text.lstrip()[:20].lower()
     for signs, kind in _OTHER_KINDS.items():

@@ -10,11 +10,11 @@ SLOW = 60.0  # warn about slower notebooks; the timeout at grading is five times
 _UNDEFINED = re.compile(r"NameError: name '(\w+)' is not defined")
 _NO_MODULE = re.compile(r"ModuleNotFoundError: No module named '([\w.]+)'")
 _REMEDIES = {  # by the beginning of a problem
-    "NameError: name 'exit'": "Grading has no exit(); delete the call",
+    "NameError: name 'exit'": "At grading JupyterLab's exit() does not exist; delete the call",
     "EOFError": "Nobody can answer input() at grading; write the value into the cell",
     "FileNotFoundError": "Grading has the notebook alone, without your other files; write into the "
     "notebook what you need from the file",
-    "still running": "Grading skips this cell",
+    "still running": "Shorten or delete this cell",
 }
 
 
@@ -52,11 +52,11 @@ def _remedy(number, problem, defined, exercise):
         if later:
             return (
                 f"Cell {later[0]} defines {missing[1]}, but grading runs cells from top to bottom. "
-                "Move that cell up"
+                f"Move cell {later[0]} above cell {number}"
             )
         return (
             f"No cell defines {missing[1]}. If you deleted its cell, copy it from a new copy of "
-            "the exercise's notebook"
+            "the exercise's notebook to the same place"
         )
     if missing := _NO_MODULE.search(problem):
         name = missing[1].partition(".")[0]

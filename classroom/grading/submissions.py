@@ -115,7 +115,9 @@ def visible_files(folder):
 def problem_of(files):
     """Return why the first of some files is not a notebook, and what the student can do."""
     if not files:
-        return f"your submission contains no file: {_AGAIN}, and look that it is no draft"
+        return (
+            f"your submission contains no file: {_AGAIN}, and check that its status is not “draft”"
+        )
     name, rest = _printable(files[0].name), files[0].suffix.lower()
     if name.lower().endswith((".ipynb.txt", ".ipynb.json")):
         return (
@@ -203,10 +205,11 @@ def identify_exercise(submission: Submission, notebook: Notebook, bound=None):
                 f"this is exercise {other} according to {source}, but exercise {bound.zfill(2)} is "
                 f"graded here: submit the notebook of exercise {bound.zfill(2)}"
             )
-        by_source = ", ".join(f"{id} by {source}" for source, id in stated.items())
+        by_name = stated["its file name"]
         raise SubmissionError(
-            f"the exercise is {by_source}: {_RENAME}; if you solved another exercise in it, copy "
-            "your solution into a new copy of that exercise's notebook, and submit this copy"
+            f"this was made from the notebook of exercise {other}, but is named as {by_name}: "
+            f"if you solved exercise {other} in it, {_RENAME}; if you solved {by_name}, copy your "
+            "solution into a new copy of that exercise's notebook, and submit this copy"
         )
     return catalogue.exercise(next(iter(stated.values())))
 

@@ -237,7 +237,7 @@ def _batches(cells):
 def _loss_message(kind, seconds):
     if kind == "time":
         return f"still running after {seconds:g} s, so it was stopped"
-    return "ended the whole Python process: called exit(), used too much memory, or crashed Python"
+    return "ended the whole Python process; possible causes: too much memory, os._exit(), a crash"
 
 
 def _text(value):

@@ -21,7 +21,7 @@ def test_each_cell_that_fails_is_reported_with_its_remedy():
         "may use slamlab.models.noise",
         "import nowhere": "copy code from your own files into the notebook",
         "open('gains.npy')": "write into the notebook what you need from the file",
-        "exit()": "Grading has no exit(); delete the call",
+        "exit()": "exit() does not exist; delete the call",
         "f(:": "SyntaxError: invalid syntax (line 1 of the cell)",
     }
     cells = list(enumerate([*messages, "late = 1"], 1))

@@ -41,7 +41,7 @@ def test_the_exercise_on_the_command_line_binds_and_the_metadata_precede_the_nam
         SubmissionError, match="exercise 01 according to its file name, but exercise 04"
     ):
         identified("ex01_why_slam.ipynb", SILENT, "04")
-    with pytest.raises(SubmissionError, match="the notebook states exercise '77', which"):
+    with pytest.raises(SubmissionError, match="name exercise '77', which"):
         identified("99_fake.ipynb", notebook(exercise="77"))
 
 
@@ -71,7 +71,9 @@ def test_a_number_at_the_start_of_a_file_name_determines_the_exercise_last(name)
     assert identified(f"team_12/{name}", SILENT) == "99"
     assert identified(f"Ana Kos_12_assignsubmission_file_{name}", SILENT) == "99"
     assert identified(f"kosana_LATE_1021_55031_{name}", SILENT) == "99"
-    with pytest.raises(SubmissionError, match="04 by its metadata, 99 by its file name"):
+    with pytest.raises(
+        SubmissionError, match="made from the notebook of exercise 04, but is named as 99"
+    ):
         identified(name, notebook(exercise="04"))
     assert identified(name, notebook(exercise="04"), "04") == "04"
 
