@@ -310,7 +310,7 @@ compare(at_once, in_world)
 # middle of the robot, but the program assumes that the sensor is *in* the middle:
 
 
-# %% slideshow={"slide_type": "fragment"} name="five-scans" tags=["folded"]
+# %% slideshow={"slide_type": "subslide"} name="five-scans" tags=["folded"]
 def five_scans(assumed_ahead, assumed_turn_in_degrees):
     """Five scans from five headings, placed with a mount that may be wrong."""
     true, rng = np.array([0.2, 0.0, 0.0]), np.random.default_rng(0)
@@ -1372,7 +1372,7 @@ compare(C, noise.C_wheels((0.23, 0.2), slip=0.01, base=0.3))
 # *For the lecturer:* This works as a game: each student names a position, and the largest visible share wins.
 # The grid search at the end gives the best one.
 
-# %% slideshow={"slide_type": "fragment"} name="visible"
+# %% slideshow={"slide_type": "subslide"} name="visible"
 # which spots on the walls are visible from (x, y)
 flat = worlds.situation_1()
 ends = [(wall[:2], wall[2:]) for wall in flat.walls]
@@ -1487,9 +1487,8 @@ for story, x, y in [("from outside", 0, 0.3), ("from inside", 3.1, 0.3), ("passi
 # ## Deeper: move a wall, watch the scan
 #
 # The next cell shows Smolec's *situation 2* and the scan of a lidar at the origin. Drag a corner, or choose it
-# with Tab
-# and move it with the arrow keys; click into the rows to change numbers or to add a wall. *Undo* reverses the
-# last change.
+# with Tab and move it with the arrow keys; click into the rows to change numbers or to add a wall. *Undo*
+# reverses the last change.
 #
 # Drag the corner $(-2.4, -3.2)$ to the right: is more of the bay in the lower left visible, or less? Which
 # points disappear when you add the pillar `-1 -1 0.2`?
@@ -1500,6 +1499,7 @@ for story, x, y in [("from outside", 0, 0.3), ("from inside", 3.1, 0.3), ("passi
 
 
 # %% slideshow={"slide_type": "fragment"} name="editor"
+# situation 2 in an editor, with the scan of a lidar at the origin
 def scan_from_the_origin(world):
     return RPLIDAR_A2.scan(world, np.zeros(3), np.random.default_rng(2)).points()
 
