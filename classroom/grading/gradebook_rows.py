@@ -57,7 +57,7 @@ def stored_record(stored):
         )
         for v in stored["verdicts"]
     )
-    cells = {int(cell): problem for cell, problem in stored["cells"].items()}
+    cells = dict(sorted((int(cell), problem) for cell, problem in stored["cells"].items()))
     # fields of older versions are ignored
     known = {name: value for name, value in stored.items() if name in _FIELDS}
     found = Record(**(known | {"verdicts": verdicts, "cells": cells}))
