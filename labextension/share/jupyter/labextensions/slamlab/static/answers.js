@@ -21,7 +21,7 @@ export function openAnswers(panel) {
   });
 }
 
-// JupyterLab unfolds a cell that is run; an answer that was folded is folded again.
+// JupyterLab unfolds a cell that is run; an answer that was folded is folded again, unless a slide opened it.
 export function keepFolded(NotebookActions, tracker) {
   const look = () => tracker.forEach((panel) => {
     for (const cell of panel.content.widgets.filter(isText)) {
@@ -33,7 +33,8 @@ export function keepFolded(NotebookActions, tracker) {
   const runStarted = (_, { notebook }) => {
     if (before) return;
     before = notebook.widgets.filter(answerOf).map(
-      (cell) => [cell, cell.outputHidden, cell.inputHidden || foldedTexts.has(cell)]);
+      (cell) => [cell, cell.outputHidden,
+        (cell.inputHidden || foldedTexts.has(cell)) && !("inputHidden" in cell.node.dataset)]);
     queueMicrotask(() => {
       for (const [cell, output, input] of before) {
         if (output) cell.outputHidden = true;
