@@ -65,9 +65,13 @@ export class Deck {
     this.health = new Health(this);
     this.bar = new Bar(this);
     this.slides = slidesOf(notebook);
+    this.waits = () => notebook.widgets.some(({ model }) => model.type === "code" && model.executionCount === null);
+    this.early = this.waits();
     const slide = this.slides.findLastIndex(({ cells }) => cells[0] <= cell);
     this.gather();
     this.goToSlide(Math.max(0, slide));
+    this.ran = (_, status) => { if (status === "idle" && this.early && !this.waits()) this.#slidesAgain(); };
+    panel.sessionContext.statusChanged.connect(this.ran);
     this.unscroll = () => this.#unscroll();
     notebook.node.addEventListener("scroll", this.unscroll, true);
     this.observer = new ResizeObserver(() => this.#later());
@@ -134,6 +138,16 @@ export class Deck {
     this.target = target;
   }
 
+  // If the lecture began while cells waited to run, some had no output yet, and a slide for it.
+  #slidesAgain() {
+    const { cell, step } = this.target;
+    this.early = false;
+    this.slides = slidesOf(this.notebook);
+    const slide = Math.max(0, this.slides.findLastIndex(({ cells }) => cells[0] <= cell));
+    this.target = { slide, cell, step };
+    this.refresh();
+  }
+
   // Number of the slide of a cell, or of the last one before it.
   slideOf(cell) {
     const index = this.notebook.widgets.indexOf(cell);
@@ -165,6 +179,7 @@ export class Deck {
     if (!panel.node.classList.contains(PANEL)) return;
     this.release(); // first of all: whatever fails, the keys are the notebook's again
     this.observer.disconnect();
+    panel.sessionContext.statusChanged.disconnect(this.ran);
     notebook.node.removeEventListener("scroll", this.unscroll, true);
     if (panel.node.isConnected) panel.node.hidePopover();
     panel.node.removeAttribute("popover");
