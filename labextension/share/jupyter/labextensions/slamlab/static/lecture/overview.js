@@ -26,7 +26,7 @@ function card(deck, slide, number) {
   const head = element("span", "", element("b", "", `${number + 1}`), slide.title || "—", minutes);
   const src = /src="(data:image[^"]+)"/.exec(cells.map(htmlOf).join(""))?.[1];
   const button = element("button", "", head, src ? Object.assign(new Image(), { src, alt: "" })
-    : element("small", "", cells.map(textOf).find(Boolean) ?? ""));
+    : element("small", "", [...cells.filter(isSaid), ...cells].map(textOf).find(Boolean) ?? ""));
   if (number === deck.slide) button.setAttribute("aria-current", "true");
   button.addEventListener("click", () => {
     deck.layer.querySelector(OPEN).remove();
@@ -35,11 +35,14 @@ function card(deck, slide, number) {
   return element("li", "", button);
 }
 
+// Whether a cell is text or a question; the text of other cells comes after it.
+const isSaid = ({ model }) => model.type === "markdown" || Boolean(questionIn(model.sharedModel.getSource()));
+
 // Text of a cell that distinguishes slides with the same heading, without formulas and the lines of tables.
 function textOf({ model }) {
   const source = model.sharedModel.getSource();
   if (questionIn(source)) return "a question";
-  if (model.type === "code") return summaryOf({ source });
+  if (model.type === "code") return [model.outputs.toJSON().find(({ text }) => text)?.text ?? summaryOf({ source })].flat().join("");
   return source.replace(/^#.*$/gm, "").replace(/\$\$?[^$]+\$\$?/g, "…").replace(/[*`]|\]\(.*?\)|\[/g, "").replace(/^[|: -]+$/gm, "").replace(/ *\|+ */g, " ").trim();
 }
 
