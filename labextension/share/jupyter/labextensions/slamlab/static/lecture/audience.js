@@ -58,7 +58,7 @@ class Audience {
   // ---- the process --------------------------------------------------------------------------------
 
   async start(host) {
-    this.panel.replaceChildren(element("p", "", "Starting …"));
+    this.panel.replaceChildren(element("p", "", "Starting … If a cell is still running, this waits for the cell."));
     try {
       this.server = JSON.parse(await this.deck.run(starting(host)));
       await this.alive();
@@ -212,6 +212,7 @@ class Audience {
 
   changed() {
     if (!this.server) return;
+    if (this.bars.isConnected && this.beside !== this.deck.slide) this.makeRoom();
     this.drawStrip();
     this.sending ??= setTimeout(() => {
       this.sending = null;
@@ -327,8 +328,15 @@ class Audience {
   show(on) {
     if (on) this.deck.layer.append(this.bars);
     else this.bars.remove();
-    this.deck.refresh();
+    if (on) this.makeRoom();
+    else this.deck.refresh();
     this.label();
+  }
+
+  // Lay out this slide beside the bars, but not the next one, of which the presenter has a preview.
+  makeRoom() {
+    this.beside = this.deck.slide;
+    this.deck.refresh(false);
   }
 
   drawHands() {
