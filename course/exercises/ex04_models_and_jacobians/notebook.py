@@ -186,6 +186,9 @@ ask(
 # | `A`, also for large coordinates and headings | rounding errors only | 1 |
 # | `W`, also for small and large robots | $10^{-8}$ of its largest entry | 1 |
 # | `P`, computed with the right `A` and `W` or with yours | 0.001 % of its largest entry | 1 |
+#
+# `x` and `P` also count if you compute `A` and `W` by finite differences. The rows of `A` and `W`
+# require exact derivatives.
 
 
 # %%
@@ -408,8 +411,9 @@ attempt(lambda: show_drive(linearised, "linearised, 95 %"))
 #
 # Each row includes the rows above it, and the points of all rows that you reach are added. Leaving
 # the arguments unchanged is worth another 0.5 points. For comparison: the median loss of the
-# linearisation in the set of random motions is about 11 nats. Samples of the end pose do not reach
-# row 4: a hundred thousand of them lose about 0.0001 nat.
+# linearisation in the set of random motions is about 11 nats. Random samples are welcome: ten
+# thousand of them reach row 3. They do not reach row 4, which requires an exact average: a hundred
+# thousand samples lose about 0.0001 nat.
 #
 # A loss of one nat means that the geometric mean of the likelihoods of the true end poses is
 # $\mathrm e \approx 2.7$ times smaller than with the best Gaussian.
