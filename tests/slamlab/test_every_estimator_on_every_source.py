@@ -23,7 +23,7 @@ from tests.slamlab.formats import carmen_writing as carmen
 from tests.slamlab.formats import test_rplidar_text as rplidar_text
 from tests.slamlab.formats.room_runs import Drive, ranges
 
-READINGS, MERGED = 20, 8
+READINGS, MERGED = 20, 5
 # farthest from the truth at the end, of estimators that match scans and of the others [m, rad]
 MATCHED, FILTERED = (0.05, np.radians(3)), (0.25, np.radians(12))
 # of the theses, faults included: they only have to end
@@ -75,7 +75,8 @@ def recorded(merge=1):
         source.merge(merge)
         ends = [*whole[merge - 1 :: merge], whole[-1]][:READINGS]
         poses = Drive(driven.times, driven.poses).at(ends)
-        return Held(source, Trajectory(np.array(ends), poses))
+        most = READINGS if merge == 1 else MERGED
+        return Held(source, Trajectory(np.array(ends), poses), most=most)
 
 
 def written(lines):
@@ -120,10 +121,10 @@ SOURCES = {
     "emulated, still": emulated,
     "emulated, driving": lambda: emulated({3: (0.15, 0.0)}),
     "emulated, turning": lambda: emulated({3: (0.0, 0.5)}),
-    "emulated, merged": lambda: emulated({3: (0.1, 0.2)}, merge=5),
+    "emulated, merged": lambda: emulated({1: (0.1, 0.2)}, merge=3),
     "emulated, carried": lambda: emulated(carried=True),
     "raw recording": recorded,
-    "raw recording, merged": lambda: recorded(merge=5),
+    "raw recording, merged": lambda: recorded(merge=3),
     "reading log": reading_log,
     "CARMEN, FLASER": lambda: logged(*carmen.log(carmen.flaser)),
     "CARMEN, ROBOTLASER1": lambda: logged(*carmen.log(carmen.robotlaser)),

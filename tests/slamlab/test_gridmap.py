@@ -18,6 +18,7 @@ from slamlab.simulation.worlds import box
 from slamlab.simulation.worlds.world import World
 from slamlab.sources import simulation
 from tests.property_testing import points, poses
+from tests.slamlab.support import refuses
 
 RESOLUTION = 0.1
 BEAMS = np.linspace(-np.pi, np.pi, 400, endpoint=False)
@@ -120,14 +121,14 @@ def test_moved_furniture_vanishes_and_comes_back():
     # the side that is seen
     side = np.array([[1.03, y] for y in np.linspace(0.5, 0.8, 4)])
     grid = OccupancyGrid(RESOLUTION)
-    for _ in range(200):
+    for _ in range(40):  # until the clamp holds
         grid.add(pose, with_chair)
     assert (at(grid, side) == 1).all()
     most = ceil((log_odds(CLAMP) - log_odds(FREE)) / -log_odds(MISS))
     for _ in range(most):
         grid.add(pose, without)
     assert (at(grid, side) == 0).all() and most <= 13
-    for _ in range(200):
+    for _ in range(40):
         grid.add(pose, without)
     for _ in range(ceil((log_odds(CLAMP) + log_odds(OCCUPIED)) / log_odds(HIT))):
         grid.add(pose, with_chair)
@@ -165,18 +166,13 @@ def test_a_map_far_from_the_origin_takes_no_more_room():
     assert far.states.size < 4 * build([[0, 0, 0.3]], [scan], RESOLUTION).states.size
 
 
-@pytest.mark.parametrize(
-    ("use", "message"),
-    [
-        (lambda: OccupancyGrid(0), "above 0 m"),
-        (lambda: OccupancyGrid(np.nan), "above 0 m"),
-        (lambda: build([[0, np.nan, 0]], [scan_of([ROOM], np.zeros(3))]), "must be finite"),
-        (lambda: build([[0, 0, 0], [1e7, 1e7, 0]], [scan_of([ROOM], np.zeros(3))] * 2), "large"),
-    ],
+test_wrong_use_is_refused_in_words = refuses(
+    lambda use: use(),
+    (lambda: OccupancyGrid(0), "above 0 m"),
+    (lambda: OccupancyGrid(np.nan), "above 0 m"),
+    (lambda: build([[0, np.nan, 0]], [scan_of([ROOM], np.zeros(3))]), "must be finite"),
+    (lambda: build([[0, 0, 0], [1e7, 1e7, 0]], [scan_of([ROOM], np.zeros(3))] * 2), "large"),
 )
-def test_wrong_use_is_refused_in_words(use, message):
-    with pytest.raises(ValueError, match=message):
-        use()
 
 
 @pytest.fixture(scope="module")

@@ -33,13 +33,13 @@ LOGS = {
         ]
     ),
     "gfs": joined(carmen.gfs()[:40]),
-    "SDK": joined(rplidar.SDK[:700]),
-    "RoboStudio": joined(rplidar.READ["RoboStudio, one scan after the other"][:700]),
-    "tuples": joined(rplidar.READ["measurements a line"][:700]),
-    "lists": joined(rplidar.READ["scans a line"][:5]),
-    "dictionaries": joined(rplidar.READ["dictionaries"][:700]),
-    "table": joined(rplidar.READ["table with dates"][:700]),
-    "columns": joined(rplidar.READ["columns angle, distance"][:700]),
+    "SDK": joined(rplidar.SDK[:560]),
+    "RoboStudio": joined(rplidar.READ["RoboStudio, one scan after the other"][:560]),
+    "tuples": joined(rplidar.READ["measurements a line"][:560]),
+    "lists": joined(rplidar.READ["scans a line"][:3]),
+    "dictionaries": joined(rplidar.READ["dictionaries"][:560]),
+    "table": joined(rplidar.READ["table with dates"][:560]),
+    "columns": joined(rplidar.READ["columns angle, distance"][:560]),
     "BreezySLAM": joined(breezy_lines([(10 * k, 12 * k) for k in range(6)])),
 }
 
