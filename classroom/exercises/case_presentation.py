@@ -72,13 +72,40 @@ def _verdict(inputs, outputs):
     return inputs, {k: names[int(a)] if k == "better" else a for k, a in outputs.items()}
 
 
+def _ragged(scans, kept):
+    """Write the measurements of a run, each scan in a line, without the rows that pad it."""
+    rows = [str(scan[k].round(4).tolist()) for scan, k in zip(scans, kept, strict=True)]
+    return ",\n  ".join(rows)
+
+
 def _consistency(inputs, outputs):
-    """Show None for the true pose and for nees; ``outputs`` may lack any of its arrays."""
+    """Show None for the true pose and for nees, and of many runs the measurements of the first;
+    ``outputs`` may lack any of its arrays."""
+    kept = inputs["seen"] >= 0
+    seen = [row[k].astype(int).tolist() for row, k in zip(inputs["seen"], kept, strict=True)]
+    runs = [f"[{_ragged(scans, kept)}]" for scans in inputs["z"]]
+    z = ",\n ".join(runs if len(runs) < 3 else [runs[0], f"... ({len(runs) - 1} more runs)"])
+    inputs = inputs | {"seen": np.array(str(seen)), "z": np.array(f"[{z}]")}
     known = not np.isnan(inputs["end"]).any()
     shown = {name: array for name, array in outputs.items() if name != "known"}
     if not outputs.get("known", known) and {"nees", "known"} & set(outputs):
         shown["nees"] = NONE["result"]
     return inputs | ({} if known else {"end": NONE["result"]}), shown
+
+
+def _pairs(inputs, outputs):
+    if "pairs" not in outputs:
+        return inputs, outputs
+    walls = [None if wall < 0 else int(wall) for wall in outputs["pairs"]]
+    return inputs, outputs | {"pairs": np.array(str(walls))}
+
+
+def _pillar(inputs, outputs):
+    shown = {name: array for name, array in outputs.items() if name != "found"}
+    if not outputs.get("found", 1):
+        shown = {name: array for name, array in shown.items() if name != "inside"}
+        shown |= {"pillar": NONE["result"]}
+    return inputs, shown
 
 
 STEPS = (
@@ -98,17 +125,15 @@ PRESENTATIONS = {
         returned="it returns xs, Ps and a dict. The dict contains these p and P (here L), in the "
         "order of the ids:"
     ),
-    "06-consistent": CasePresentation(
-        "consistency is given these arguments, but neither a −1 in seen nor the row of z that "
-        "belongs to it: both only fill up short scans here.",
-        shown=_consistency,
-    ),
-    "08-associate": CasePresentation(returned="it returns (−1 stands for None)"),
+    "06-consistent": CasePresentation(shown=_consistency),
+    "08-associate": CasePresentation(shown=_pairs),
+    "08-joint": CasePresentation(shown=_pairs),
     "08-pillar": CasePresentation(
         "fit_circle is given arc. find_pillar is given the other arrays, with rng = "
         "np.random.default_rng(seed):",
-        "fit_circle returns centre and radius, here called circle. find_pillar returns pillar and "
-        "inside (found = 0 stands for None):",
+        "fit_circle returns centre and radius, here called circle. find_pillar returns centre and "
+        "radius, here called pillar, and inside, or it returns None:",
+        _pillar,
     ),
     "09-life": CasePresentation(
         "keep_book is called once for each row of scans, without the −1 that pads the row. The "

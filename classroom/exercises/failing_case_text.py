@@ -103,7 +103,7 @@ def format_numbers(name, array) -> str:
     array = np.asarray(array)
     label = "" if name in UNNAMED else f"{name} = "
     if array.dtype.kind == "U":  # no number was returned
-        return f"{label}{array}"
+        return f"{label}{array}".replace("\n", "\n" + " " * len(label))
     if name in WRITTEN and array.ndim == 1:
         written = f"{label}{WRITTEN[name](array.astype(int))}"
         return textwrap.fill(written, WIDTH, subsequent_indent=" " * len(label))
