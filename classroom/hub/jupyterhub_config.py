@@ -19,6 +19,7 @@ c.Authenticator.allow_all = True  # that is, everybody with an account of this m
 
 c.Spawner.cmd = [sys.executable, "-m", "classroom.hub.student_server"]
 c.Spawner.default_url = "/lab/tree/slam-course/notebooks/00_start_here.ipynb"
+c.Spawner.http_timeout = 300  # [s]; the servers of a whole class start at once
 c.Spawner.environment = {
     "PATH": f"{programs}:/usr/local/bin:/usr/bin:/bin",
     "OPENBLAS_NUM_THREADS": "1",  # the course's matrices are small
