@@ -56,31 +56,6 @@ def capacitor(dt, ohms, farads, sigma):
 def capacitor(dt, ohms, farads, sigma):
     return np.eye(2), sigma**2 * np.eye(2), np.eye(2)
 
-# %% right: the jump's covariance, carried along by F; expm1
-def capacitor(dt, ohms, farads, sigma):
-    tau = ohms * farads
-    gone = -np.expm1(-dt / tau)
-    F = np.array([[1.0 - gone, gone], [0.0, 1.0]])
-    jump = np.array([[0.0, 0.0], [0.0, dt * sigma**2]])
-    H = np.array([[1.0, 0.0], [-1.0, 1.0]]) / np.array([[1.0], [ohms]])
-    return F, F @ jump @ F.T, H
-
-# %% right: the columns found by letting the step act on unit vectors
-def capacitor(dt, ohms, farads, sigma):
-    def step(state, w):
-        volts, source = state
-        source = source + w
-        return np.array([source + (volts - source) * np.exp(-dt / ohms / farads), source])
-
-    def meters(state):
-        return np.array([state[0], (state[1] - state[0]) / ohms])
-
-    unit = np.eye(2)
-    F = np.column_stack([step(e, 0.0) for e in unit])
-    H = np.column_stack([meters(e) for e in unit])
-    g = step(np.zeros(2), 1.0)[:, None]
-    return F, g @ g.T * sigma**2 * dt, H
-
 # %% wrong: a little something on Q's diagonal, so that it can be inverted
 def capacitor(dt, ohms, farads, sigma):
     left = np.exp(-dt / (ohms * farads))

@@ -62,30 +62,6 @@ def slam_step(x, P, ids, u, seen, z, C, R):
             ids.append(seen[k])
     return x, P, ids
 
-# %% right: all known sights in one stacked update
-def slam_step(x, P, ids, u, seen, z, C, R):
-    x, P = predict(x, P, u, C)
-    new_ids = ids.copy()
-    known = [k for k, i in enumerate(seen) if i in new_ids]
-    if known:
-        js = [new_ids.index(seen[k]) for k in known]
-        H = np.vstack([H_full(x, j) for j in js])
-        v = np.array([z[k] - h(x[:3], x[3 + 2 * j:5 + 2 * j]) for k, j in zip(known, js)])
-        v[:, 1] = wrap(v[:, 1])
-        S = H @ P @ H.T + np.kron(np.eye(len(js)), R)
-        K = np.linalg.solve(S, H @ P).T
-        x, P = x + K @ v.ravel(), P - K @ S @ K.T
-        x[2] = wrap(x[2])
-    for k, i in enumerate(seen):
-        if k in known:
-            continue
-        if i in new_ids:
-            x, P = update(x, P, z[k], new_ids.index(i), R)
-        else:
-            x, P = augment(x, P, z[k], R)
-            new_ids.append(i)
-    return x, P, new_ids
-
 # %% right: an array of ids comes back, and floats at that
 def slam_step(x, P, ids, u, seen, z, C, R):
     x, P = predict(x, P, u, C)

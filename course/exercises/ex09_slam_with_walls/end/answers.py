@@ -81,23 +81,6 @@ def end_point(x, P, j, beta, sigma):
     A, b = J[:, :-1], J[:, -1:]
     return meet(y), A @ P @ A.T + sigma ** 2 * b @ b.T, A @ P
 
-# %% right: two lines that meet, differentiated implicitly
-def end_point(x, P, j, beta, sigma):
-    rho, alpha = x[3 + 2 * j], x[4 + 2 * j]
-    phi = x[2] + beta
-    n, m = np.array([np.cos(alpha), np.sin(alpha)]), np.array([-np.sin(phi), np.cos(phi)])
-    along, ahead = np.array([-n[1], n[0]]), np.array([m[1], -m[0]])
-    A = np.array([n, m])
-    p = np.linalg.solve(A, [rho, m @ x[:2]])
-    wrong = np.zeros((2, len(x) + 1))
-    wrong[0, 3 + 2 * j] = 1
-    wrong[0, 4 + 2 * j] = -along @ p
-    wrong[1, :2] = m
-    wrong[1, 2] = wrong[1, -1] = ahead @ (p - x[:2])
-    J = np.linalg.solve(A, wrong)
-    F, w = J[:, :-1], J[:, -1:]
-    return p, F @ P @ F.T + sigma**2 * w @ w.T, F @ P
-
 # %% wrong: differences over five points
 def end_point(x, P, j, beta, sigma):
     x = np.array(x, dtype=float)

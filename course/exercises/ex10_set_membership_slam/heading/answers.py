@@ -55,24 +55,6 @@ def sharpen(heading, robot, box, bearing, bound):
     between = wrap(float(toward - bearing - middle + (right + left) / 2)) - (right + left) / 2
     return [middle + max(-half, between + right), middle + min(half, between + left)]
 
-# %% right: box of differences, centre bearing, normalised right
-def sharpen(heading, robot, box, bearing, bound):
-    dx = box[0] - robot[1], box[1] - robot[0]
-    dy = box[2] - robot[3], box[3] - robot[2]
-    if dx[0] <= 0 <= dx[1] and dy[0] <= 0 <= dy[1]:
-        return np.array(heading, dtype=float)
-    centre = np.arctan2(dy[0] + dy[1], dx[0] + dx[1])
-    off = [wrap(np.arctan2(y, x) - centre) for x in dx for y in dy]
-    width = max(off) - min(off) + 2 * bound
-    start = centre + min(off) - bearing - bound
-    for k in range(-4, 5):
-        low = max(heading[0], start + 2 * np.pi * k)
-        high = min(heading[1], start + width + 2 * np.pi * k)
-        if low <= high:
-            right = wrap(float(low))
-            return np.array([right, right + high - low])
-    return np.array(heading, dtype=float)
-
 # %% right: complex numbers, everything counted from the heading's middle
 def sharpen(heading, robot, box, bearing, bound):
     apart_x = max(robot[0], box[0]) > min(robot[1], box[1])

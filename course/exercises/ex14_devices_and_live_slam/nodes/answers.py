@@ -56,15 +56,6 @@ def nodes(data):
     return np.column_stack([b[:, 0] & 1, b[:, 0] >> 2, ((b[:, 2] << 7) | (b[:, 1] >> 1)) / 64,
                             (b[:, 3] + 256 * b[:, 4]) / 4])
 
-# %% right: numpy on the whole packet, bytes as int, a mask for the good nodes
-def nodes(data):
-    b = np.frombuffer(bytes(data), dtype=np.uint8).astype(int).reshape(-1, 5)
-    s, not_s = b[:, 0] % 2, b[:, 0] // 2 % 2
-    word, dist = b[:, 1] + 256 * b[:, 2], b[:, 3] + 256 * b[:, 4]
-    good = (s + not_s == 1) & (word % 2 == 1)
-    table = np.column_stack([s, b[:, 0] // 4, (word // 2) / 64.0, dist / 4.0])
-    return table[good]
-
 # %% right: vectorised with reshape
 def nodes(data):
     b = np.array(list(data), dtype=int).reshape(-1, 5)

@@ -52,21 +52,6 @@ def jacobians(x_i, x_j, z):
     A[0, 2], A[1, 2] = swing.real, swing.imag
     return A, B
 
-# %% right: blocks, chain rule through seen = between(x_i, x_j)
-def jacobians(x_i, x_j, z):
-    def R(a):
-        return np.array([[np.cos(a), -np.sin(a)], [np.sin(a), np.cos(a)]])
-
-    seen = R(x_i[2]).T @ (x_j[:2] - x_i[:2])
-    A, B = np.zeros((3, 3)), np.zeros((3, 3))
-    back = (R(x_i[2]) @ R(z[2])).T
-    A[:2, :2] = -back
-    A[:2, 2] = R(z[2]).T @ np.array([seen[1], -seen[0]])
-    A[2, 2] = -1
-    B[:2, :2] = back
-    B[2, 2] = 1
-    return A, B
-
 # %% right: complex-step derivative of the unwrapped error
 def jacobians(x_i, x_j, z):
     def e(v):
