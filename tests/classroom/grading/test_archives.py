@@ -66,6 +66,7 @@ def test_all_files_of_the_same_name_are_kept(tmp_path):
     file = zipped(tmp_path / "x.zip", [("hw.ipynb", text) for text in contents])
     found = collect_submissions(file, tmp_path / "out")
     assert sorted((s.path.read_text() for s in found if not s.problem), key=int) == contents
+    assert {"hw.ipynb", "hw (2).ipynb"} <= {s.path.name for s in found}
 
 
 def test_a_forged_path_in_a_students_zip_does_not_change_the_student(tmp_path):

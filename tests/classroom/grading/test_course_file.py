@@ -116,6 +116,7 @@ def test_an_own_roster_has_columns_of_extensions(tmp_path):
         ("id,name\n,Ana", "line 2: Ana has no id"),
         ("id,name\n", "lists no students"),
         ("who,what\n1,2", "must have the titles id and name"),
+        ("id,email\ns1,a@uni.hr", "must have the titles id and name"),
         ("id,name,name\n1,2,3", "a title occurs twice"),
         ("id,name,email\ns1,Kos, Ana,a@uni.hr", "line 2: there are more cells than titles"),
         ("id,name,section\ns1,Ana,A\ns1,Ana,B", "two sections, name both in one line"),
