@@ -58,7 +58,7 @@ def point_to_line(
     source, target, pose = source - centres.source, target - centres.target, centres.inward(pose)
     nearest = NearestNeighbours(target)
     n_source, n_target = normals(source), normals(target)
-    start = pose
+    start = pose = np.array([*pose[:2], wrap(pose[2])])
     information = np.zeros(3) if prior_sigmas is None else 1 / np.asarray(prior_sigmas) ** 2
     ranges = np.hypot(*source.T)
     reach = min(ranges.max(), MAX_RANGE_FACTOR * median(ranges))

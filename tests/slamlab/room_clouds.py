@@ -26,6 +26,11 @@ def clouds(seed):
     return [scan.points() for scan in looks(np.random.default_rng(seed))]
 
 
-def error(found, true=MOTION):
-    x, y, turn = between(true, found.pose)
+def pose_difference(a, b):
+    """Distance [m] and turn [rad] between two poses."""
+    x, y, turn = between(a, b)
     return np.hypot(x, y), abs(turn)
+
+
+def error(found, true=MOTION):
+    return pose_difference(true, found.pose)

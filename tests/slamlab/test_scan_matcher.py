@@ -16,8 +16,8 @@ from slamlab.simulation import worlds
 from slamlab.simulation.range_scanners import RPLIDAR_A2, Scanner
 from slamlab.simulation.worlds import ring
 from slamlab.simulation.worlds.world import World
+from tests.slamlab.room_clouds import pose_difference, seeds
 
-seeds = st.integers(0, 2**32 - 1)
 poses = st.tuples(st.floats(-5, 5), st.floats(-5, 5), st.floats(-3.1, 3.1)).map(np.array)
 PAIR = np.array([0.25, -0.15, 0.2])  # a motion between two scans
 
@@ -38,12 +38,6 @@ def room_pairs(count):
         source, target = scans(world, true, rng, place=place)
         found.append((source, target, true, true + rng.normal(0, 0.1, 3)))
     return found
-
-
-def pose_difference(a, b):
-    """Distance [m] and turn [rad] between two poses."""
-    d = between(a, b)
-    return np.hypot(d[0], d[1]), abs(d[2])
 
 
 def squared_mahalanobis(error, covariance):
