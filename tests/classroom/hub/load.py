@@ -39,6 +39,8 @@ class Student(threading.Thread):
         self.checks, self.lost, self.opened, self.ended = [], [], None, None
         self._path = f"slam-course/exercises/{EXERCISE}"
         self._session = requests.Session()
+        # the hub's proxy closes a connection that is idle for 5 s; a browser then asks again
+        self._session.headers["Connection"] = "close"
 
     def run(self):
         try:
