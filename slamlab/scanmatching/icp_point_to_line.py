@@ -58,7 +58,7 @@ def point_to_line(
     source, target, pose = source - centres.source, target - centres.target, centres.inward(pose)
     nearest = NearestNeighbours(target)
     n_source, n_target = normals(source), normals(target)
-    start = pose = np.array([*pose[:2], wrap(pose[2])])
+    start = pose
     information = np.zeros(3) if prior_sigmas is None else 1 / np.asarray(prior_sigmas) ** 2
     ranges = np.hypot(*source.T)
     reach = min(ranges.max(), MAX_RANGE_FACTOR * median(ranges))
@@ -71,7 +71,7 @@ def point_to_line(
         used = np.flatnonzero((distances <= width) & agree)
         residuals = np.einsum("ij,ij->i", n[used], (moved - target[indices])[used])
         if len(used) < max(3, MIN_MATCHED_SHARE * len(source)):
-            verdict = LOST
+            verdict, pose = LOST, np.array([*pose[:2], wrap(pose[2])])
         elif keep < 1:
             best = np.abs(residuals) <= np.quantile(np.abs(residuals), keep)
             used, residuals = used[best], residuals[best]
