@@ -15,7 +15,7 @@ from slamlab.cli import main
 from slamlab.cli.progress_line import progress_line
 from slamlab.cli.run_results import COLUMNS, picture
 from slamlab.estimators.runner import run
-from slamlab.sources import SourceError
+from tests.slamlab.support import public
 from tests.timeouts import PATIENCE
 
 
@@ -189,10 +189,7 @@ def test_help_imports_nothing_heavy():
 
 @pytest.mark.slow
 def test_intel_without_loop_closure_comes_out_ten_times_better_than_odometry(tmp_path):
-    try:
-        log, relations = sources.recording("intel"), sources.recording("intel-relations")
-    except SourceError as missing:
-        pytest.skip(str(missing))
+    log, relations = public("intel"), public("intel-relations")
     assert main(["run", str(log), "--relations", str(relations), "--out", str(tmp_path)]) == 0
     summary = json.loads((tmp_path / "summary.json").read_text())
     assert (summary["frames"], summary["skipped"]) == (910, 0)

@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from slamlab import estimators
 from slamlab.estimators.foot_point_corrections import CORRECTIONS, checked
 from slamlab.estimators.foot_point_formulas import R_foot_points, make_filter, predict
 from slamlab.estimators.foot_point_slam import FootPointSlam
@@ -20,7 +19,6 @@ from slamlab.readings import Reading
 from slamlab.simulation.range_scanners import Scanner
 from slamlab.simulation.worlds import World
 from slamlab.sources import simulation
-from slamlab.sources.simulated_robot import THESIS_LIDAR
 
 POSE, FOOT = np.array([0.3, -0.4, 0.7]), np.array([2.0, 1.0])
 LIDAR = Scanner(range_error=0.0, beams=400)
@@ -260,8 +258,3 @@ def test_it_runs_through_and_shows_foot_points_on_their_perpendiculars(correctio
     assert not layers[Segments, "perpendicular"].rows[:, :2].any()
     assert np.isfinite(slam.trajectory().poses).all()
     assert len(slam.trajectory().poses) == len(source)
-
-
-def test_by_its_name_it_is_as_printed():
-    source = simulation("situation-2", np.random.default_rng(0), lidar=THESIS_LIDAR)
-    assert estimators.make("walls-foot-points", source).corrections == frozenset()

@@ -5,10 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from slamlab.cli import main
 from slamlab.devices.clock import SimulatedClock
 from slamlab.files import SourceError
-from slamlab.geometry import compose, transform
+from slamlab.geometry import compose
 from slamlab.simulation import worlds
 from slamlab.simulation.pedestrian_gait import Walk
 from slamlab.simulation.pedestrians import BODY, WALKS, Carrier, Pedestrians, carrier
@@ -128,17 +127,6 @@ def test_the_beams_of_successive_revolutions_are_contiguous(name):
     assert np.mean(scan.valid) > 0.9
 
 
-def test_standing_still_it_scans_as_a_standing_scanner_does():
-    source = HandheldLidar("flat", rng(), lidar=NOISELESS, tilt=0.0, people=0)
-    scan = next(iter(source)).scan
-    true = source.world.cast((0.0, 0.0), scan.angles)
-    mine = own(scan)
-    np.testing.assert_allclose(scan.ranges[~mine], true[~mine], rtol=1e-9)
-    shorter = scan.ranges < true * (1 - 1e-9)
-    assert 0.05 < shorter.mean() < 0.15
-    assert not shorter[~mine].any()
-
-
 @pytest.mark.parametrize("flat", WALKS)
 def test_without_noise_each_point_lies_on_a_wall_from_where_it_was_measured(flat):
     source = HandheldLidar(flat, rng(1), lidar=NOISELESS, tilt=0.0, people=0)
@@ -146,18 +134,6 @@ def test_without_noise_each_point_lies_on_a_wall_from_where_it_was_measured(flat
         points = placed(source._reading(i), source.walk)
         assert len(points) > 300
         assert off_the_walls(source.world, points).max() < 1e-6
-
-
-def test_without_deskewing_the_points_lie_off_the_walls():
-    source = HandheldLidar("flat", rng(1), lidar=NOISELESS, tilt=0.0, people=0)
-    turns = np.abs(np.diff(source.truth.poses[:, 2]))
-    i = int(np.argmax(np.where(turns < 1, turns, 0))) + 1
-    reading = source._reading(i)
-    scan = reading.scan
-    keep = replace(scan, ranges=np.where(own(scan), np.nan, scan.ranges))
-    pose = source.walk.pose_at(np.array([reading.time]))[0]
-    skewed = off_the_walls(source.world, transform(pose, keep.points()))
-    assert np.quantile(skewed, 0.9) > 0.05
 
 
 @pytest.mark.parametrize(("name", "sigma"), [("A1", 0.03), ("A2", 0.004), ("C1", 0.015)])
@@ -222,7 +198,7 @@ def test_the_same_seed_gives_the_same_run_whatever_was_read_before(flat):
 def test_the_emulated_lidar_is_carried_on_the_same_walk_without_a_robot():
     world = worlds.by_name("flat-2")
     with EmulatedDevices(world, rng(), clock=SimulatedClock(), carried=True) as source:
-        readings = [reading for reading, _ in zip(source, range(60), strict=False)]
+        readings = [reading for reading, _ in zip(source, range(30), strict=False)]
         truth = source.truth
         assert not source.drivable
         with pytest.raises(SourceError, match="cannot be driven"):
@@ -233,13 +209,8 @@ def test_the_emulated_lidar_is_carried_on_the_same_walk_without_a_robot():
 
 
 def test_the_emulated_walk_ends(monkeypatch):
-    monkeypatch.setitem(WALKS, "flat", [(0.0, 0.0), (1.0, 0.0)])
+    monkeypatch.setitem(WALKS, "flat", [(0.0, 0.0), (0.3, 0.0)])
     world = worlds.flat()
     with EmulatedDevices(world, rng(), clock=SimulatedClock(), carried=True) as source:
         readings = list(source)
     assert readings[-1].time == pytest.approx(source.bench.body.walk.duration, abs=0.3)
-
-
-def test_the_hand_held_lidar_of_the_command_has_no_robot(capsys):
-    assert main(["emulate", "--carried", "--world", "polygon"]) == 2
-    assert "world 'polygon' has no walk; available: flat, flat-2" in capsys.readouterr().err

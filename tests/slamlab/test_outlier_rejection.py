@@ -29,7 +29,7 @@ def test_the_usual_phi_keeps_99_percent_of_true_edges_whole():
     assert chi2(3).cdf(PHI) == pytest.approx(0.99, abs=1e-5)
 
 
-@pytest.mark.parametrize("seed", range(10))
+@pytest.mark.parametrize("seed", range(5))
 def test_true_robust_edges_are_kept_however_far_the_guesses_drifted(seed):
     graph, _ = square_tour(np.random.default_rng(seed), noise=0.5, drift=8.0, robust=True)
     trusting, _ = square_tour(np.random.default_rng(seed), noise=0.5, drift=8.0)
@@ -39,7 +39,7 @@ def test_true_robust_edges_are_kept_however_far_the_guesses_drifted(seed):
     assert largest_deviation(graph, graph.poses, trusting.poses) < 0.01
 
 
-@pytest.mark.parametrize("seed", range(10))
+@pytest.mark.parametrize("seed", range(5))
 def test_a_loop_that_drift_alone_makes_look_false_is_closed(seed):
     rng = np.random.default_rng(seed)
     graph, true = square_tour(rng, laps=1)
@@ -58,7 +58,7 @@ def test_a_loop_that_drift_alone_makes_look_false_is_closed(seed):
     assert error @ sharp @ error < PHI
 
 
-@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("seed", range(8))
 @pytest.mark.parametrize("false", [1, 8])
 def test_outlier_edges_are_rejected(seed, false):
     rng = np.random.default_rng(seed)
@@ -76,7 +76,7 @@ def test_outlier_edges_are_rejected(seed, false):
     assert graph.dropped == set(np.flatnonzero(optimum.weights == 0))
 
 
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("seed", range(3))
 def test_few_right_loops_far_apart_are_kept_beside_more_false_ones(seed):
     rng = np.random.default_rng(seed)
     graph, _ = square_tour(rng, laps=4, robust=True)

@@ -11,26 +11,20 @@ from slamlab.estimators.runner import run
 from slamlab.evaluation import absolute_error
 from slamlab.layers import Ellipses, Particles, Points, Poses
 from slamlab.readings import Observations, Reading
-from slamlab.sources import simulation
-from slamlab.sources.base import Source
 from slamlab.sources.landmark_runs import LandmarkRun, Loop
+from tests.slamlab.support import Given
 
 NAMES = ["montecarlo", "fastslam"]
 
 
-class Nameless(Source):
+def nameless():
     """A landmark run that keeps the names to itself."""
-
-    name = "nameless"
-
-    def __init__(self, run):
-        super().__init__()
-        self.run, self.robot, self.sensor, self.truth = run, run.robot, run.sensor, run.truth
-
-    def __iter__(self):
-        for reading in self.run:
-            z = reading.observations.z
-            yield replace(reading, observations=Observations(z, np.full(len(z), -1)))
+    run = LandmarkRun(Loop(steps=150, landmarks=8), np.random.default_rng(1))
+    readings = []
+    for reading in run:
+        z = reading.observations.z
+        readings.append(replace(reading, observations=Observations(z, np.full(len(z), -1))))
+    return Given(readings, run, truth=run.truth)
 
 
 def ratio(name, source, **options):
@@ -40,20 +34,9 @@ def ratio(name, source, **options):
     return naive.translation / found.translation, result.estimator
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", NAMES)
-def test_it_beats_dead_reckoning_on_a_loop_and_finds_every_landmark_it_saw(name):
-    source = simulation("landmarks", np.random.default_rng(2))
-    better, slam = ratio(name, source)
-    assert better > 2
-    seen = set(np.concatenate([reading.observations.ids for reading in source]).tolist())
-    assert set(slam.filter.ids) == seen
-
-
 @pytest.mark.parametrize("name", NAMES)
 def test_without_ids_data_association_uses_each_particles_own_covariance(name):
-    source = Nameless(LandmarkRun(Loop(steps=150, landmarks=8), np.random.default_rng(1)))
-    better, slam = ratio(name, source, association="own")
+    better, slam = ratio(name, nameless(), association="own")
     assert better > 1.5
     # sets believe more than they know, and take some of the eight for new ones in the second lap
     assert 6 <= len(slam.filter.ids) <= (12 if name == "fastslam" else 20)
@@ -62,17 +45,8 @@ def test_without_ids_data_association_uses_each_particles_own_covariance(name):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_named_by_an_ekf_slam_beside_there_are_as_many_landmarks_as_there_are(name):
-    source = Nameless(LandmarkRun(Loop(steps=150, landmarks=8), np.random.default_rng(1)))
-    better, slam = ratio(name, source)
+    better, slam = ratio(name, nameless())
     assert better > 1.5 and len(slam.filter.ids) == 8 and slam.association.ambiguous == 0
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", NAMES)
-def test_it_takes_the_corners_of_scans(name):
-    better, slam = ratio(name, simulation("situation-2", np.random.default_rng(1)))
-    assert better > 3
-    assert "landmarks" in slam.status
 
 
 def test_the_same_seed_gives_the_same_run_and_another_one_another():
@@ -101,16 +75,6 @@ def test_fastslam_draws_an_ellipse_for_each_landmark():
     points, ellipses, _, robot = ratio("fastslam", source)[1].layers()
     assert [type(a) for a in (points, ellipses, robot)] == [Points, Ellipses, Particles]
     assert len(points.xy) == len(ellipses.covariances) > 3
-
-
-@pytest.mark.parametrize("name", NAMES)
-def test_before_any_observation_there_are_particles_of_the_robot_only(name):
-    source = LandmarkRun(Loop(steps=2), np.random.default_rng(1))
-    slam = estimators.make(name, source)
-    slam.step(Reading(0.0, np.array([0.1, 0.0, 0.0])))
-    assert len(slam.layers()) == 4
-    assert slam.filter.ids == []
-    assert abs(slam.pose[0] - 0.1) < 0.05
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -134,7 +134,7 @@ def test_a_sensor_that_stands_on_a_wall_sees_zero_all_round(position):
     np.testing.assert_array_equal(ranges, 0)
 
 
-def test_a_sensor_that_stands_on_a_slanted_wall_or_on_a_rim_sees_zero_all_round():
+def test_a_sensor_that_stands_on_a_slanted_wall_or_a_rim_sees_zero_all_round():
     start, end = np.array([-1.3, 0.7]), np.array([2.9, 1.9])
     on_wall = start + 0.37 * (end - start)
     assert np.all(cast(on_wall, [0.0, 1.0, 2.0], [[*start, *end]]) == 0)

@@ -17,7 +17,6 @@ from slamlab.models.noise import C_wheels
 from slamlab.models.parameters import RobotModel
 from slamlab.readings import Observations, Reading
 from slamlab.simulation.differential_drive import arc
-from slamlab.sources import simulation
 from slamlab.sources.arena_runs import ArenaRun
 from slamlab.sources.landmark_runs import LandmarkRun, Loop
 
@@ -75,13 +74,6 @@ def test_it_draws_the_landmarks_boxes_and_the_robots_and_the_track():
     assert len(track.rows) == len(source)
     assert inside(robot.rows[0], slam.pose)
     assert "landmarks" in slam.status
-
-
-def test_it_takes_the_corners_of_scans_where_no_landmark_is_named():
-    source = simulation("polygon", np.random.default_rng(0))
-    slam = run(source, estimators.make("bor", source)).estimator
-    assert len(slam.filter) > 2
-    assert inside(slam.filter.robot, source.truth.poses[-1])
 
 
 def test_a_bound_is_so_many_standard_deviations_of_the_arcs_length_and_turn():

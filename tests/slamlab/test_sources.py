@@ -14,7 +14,7 @@ from slamlab import sources
 from slamlab.geometry import compose
 from slamlab.readings import Observations, Reading, Scan
 from slamlab.sources import SourceError
-from slamlab.sources.base import Source
+from tests.slamlab.support import Given
 
 
 def flaser(i, ranges=(1.0, 1.5, 2.0, 81.83)):
@@ -131,17 +131,6 @@ def test_junk_anywhere_in_a_log_costs_at_most_the_lines_it_touches(tmp_path_fact
     assert times >= {1000.25 + i for i in range(12) if abs(i - touched) > 1}
 
 
-class Given(Source):
-    """A source of given readings."""
-
-    def __init__(self, readings):
-        super().__init__()
-        self.name, self._readings = "given", readings
-
-    def __iter__(self):
-        return iter(self._readings)
-
-
 def same(a, b):
     np.testing.assert_equal(asdict(a), asdict(b))
 
@@ -239,11 +228,6 @@ def test_a_reading_log_of_another_version_or_with_a_broken_header_is_refused(tmp
     ):
         with pytest.raises(SourceError, match=message):
             opened(tmp_path, headed(first, others))
-
-
-def test_an_unknown_simulation_is_named_with_the_available_ones():
-    with pytest.raises(SourceError, match="polygon-wrong"):
-        sources.open("sim:atlantis")
 
 
 def test_missing_ranges_are_recognised_by_their_count_at_the_maximum_range(tmp_path):

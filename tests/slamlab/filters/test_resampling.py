@@ -43,11 +43,6 @@ def test_weights_that_are_all_zero_become_equal_and_the_total_shows_it():
     assert total == -np.inf
 
 
-def test_a_single_particle_has_all_the_weight():
-    assert normalise([-1e6]) == (np.ones(1), -1e6)
-    assert effective_sample_size([1.0]) == 1
-
-
 @pytest.mark.parametrize("logs", [[], [[0.0]], [0.0, np.nan], [0.0, np.inf]])
 def test_invalid_log_weights_are_refused(logs):
     with pytest.raises(ValueError, match="log-weight"):
