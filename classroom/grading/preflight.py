@@ -35,11 +35,11 @@ def explained(problems, cells, exercise):
     remedy; equal remedies are stated once.
     """
     defined = {number: _defined(source) for number, source in cells} if problems else {}
-    found, told = {}, {""}
+    found, stated = {}, {""}
     for number, problem in sorted(problems.items()):
         remedy = _remedy(number, problem, defined, exercise)
-        found[number] = problem if remedy in told else f"{problem}. {remedy}"
-        told.add(remedy)
+        found[number] = problem if remedy in stated else f"{problem}. {remedy}"
+        stated.add(remedy)
     return found
 
 

@@ -175,10 +175,10 @@ def describe_exception(error: BaseException) -> str:
         text = str(error)[:1000].strip().splitlines()
     except Exception:  # str() of a student's exception class may fail, too
         text = []
-    said = _LINE_OF_SYNTAX_ERROR.sub(
+    text = _LINE_OF_SYNTAX_ERROR.sub(
         r" (line \1 of the cell)", text[0][:300] if text else "no message"
     )
-    return f"{type(error).__name__}: {said}{where}"
+    return f"{type(error).__name__}: {text}{where}"
 
 
 def line_in_cell(file, number) -> str:
