@@ -125,11 +125,11 @@ def test_none_is_shown_as_none(id, name, outputs, text):
     assert str(shown[name]) == text
 
 
-def test_the_case_of_whole_runs_fits_on_a_screen():
+def test_the_case_of_whole_runs_is_short_and_has_no_rows_that_pad_it():
     for name in ("S-incomplete", "innovation-not-wrapped"):
         case = explained_verdict("06-consistent", mistake("06-consistent", name)).case
         assert "-1]" not in case
-        assert len(case.splitlines()) <= 50
+        assert len(case.splitlines()) <= 60
 
 
 def test_a_whole_number_is_reported_in_all_its_digits():
