@@ -180,10 +180,12 @@ views.explore(
     noise=(0.0, 0.1, 0.02),
 )
 
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="08-school"
+# Rotate the wall, and find the angle at which the two lines begin to agree. Then set the noise to zero.
+
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="08-school"
 # The dashed line cuts across the wall. On the map the wall is *vertical*, so $y$ is not a function of
-# $x$: least squares fits two metres of $y$ as a function of two centimetres of noise in $x$. Rotate the
-# wall, and find the angle at which the two lines begin to agree. Then set the noise to zero.
+# $x$: least squares fits two metres of $y$ as a function of two centimetres of noise in $x$.
 #
 # The mean error of the direction over 200 such walls, straight ahead, is
 # {= ahead["y = m x + c"]:.0f =}°. For walls to the robot's side, at 90°, it is
@@ -469,13 +471,16 @@ views.explore(
 errors, R_each, clouds = fits_of(-17, 63, count=1000)
 sizes = nees(errors, R_each)
 
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="08-streak"
+# Change the two angles until the wall is seen evenly to both sides: then the axes of the ellipse are
+# parallel to the axes of the plot.
+
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="08-streak"
 # The errors fill an inclined ellipse, which is the ellipse of $R$ by (08.8). Their correlation is
 # {= np.corrcoef(errors.T)[0, 1]:.2f =}: if the line is rotated a little about the observed piece of
 # wall, its distance from the robot changes as well. In
 # {= 100 * np.mean(np.prod(errors, axis=1) > 0):.0f =} % of the fits both errors have the same sign. If
-# we kept only the diagonal of $R$, we would lose this information. Change the two angles until the wall
-# is seen evenly to both sides: then the axes of the ellipse are parallel to the axes of the plot.
+# we kept only the diagonal of $R$, we would lose this information.
 #
 # Is $R$ consistent? Here each reading belongs to the wall, and its noise follows the model. The
 # normalised squared error, the NEES, of {= len(sizes) =} fits is {= sizes.mean():.2f =} on average. For
@@ -1667,8 +1672,6 @@ by_foot, by_line = (after(10, 0.5, as_foot) for as_foot in (True, False))
 # **spike** (triangles below).
 #
 # The left room at the beginning has 20 table legs. The plot below shows the range over the bearing.
-# Change the threshold, and the number of beams in a revolution. Can you find all 20 legs without false
-# spikes?
 
 # %% [markdown] slideshow={"slide_type": "notes"} name="note-deeper-spikes"
 # *For the lecturer:* Let the class choose the threshold by vote; every choice misses legs or finds false
@@ -1703,6 +1706,10 @@ views.explore(
 )
 counted = {key: len(spikes_in(legs, beams=key)[1]) for key in (400, 100)}
 in_rooms = {jump: len(spikes_in(rooms, jump)[1]) for jump in (0.5, 0.05)}
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# Change the threshold, and the number of beams in a revolution. Can you find all 20 legs without false
+# spikes?
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # With 400 beams and a threshold of 0.5 m, {= counted[400] =} of the 20 legs are marked, and in the

@@ -73,7 +73,7 @@ export async function walk(panel) {
 
 const ALIGNED = /\S {2,}\S/; // columns; a sentence may break
 const CONTROL = "application/vnd.jupyter.widget-view+json";
-const USES = /\b(Press|Click|Move|Drag|Set|Play) [^.]*(▶|slider|button)|\b([Pp]ress ▶|Tick the box)|(slider|button)s? (above|below)/; // text that needs a control
+const USES = /\b(Press|Click|Move|Drag|Set|Play) [^.]*(▶|slider|button)|(Rotate|Change) the |\b([Pp]ress ▶|Tick the box)|(slider|button)s? (above|below)/; // text that needs a control
 
 // What a class would miss on the slide as it is seen at this stop.
 function faultsOf({ notebook, page, shown, slides, slide, stops, at }) {
