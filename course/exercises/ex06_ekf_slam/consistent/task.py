@@ -131,9 +131,14 @@ CONSISTENT = Task(
         ),
     ),
     probes=(
-        Probe("a single run", lambda rng: experiments(rng, 2, 1)),
-        # whose number of NIS is not that of its steps
-        Probe("a drive of six steps", lambda rng: experiments(rng, 2, steps=6)),
+        Probe("a run of three steps", lambda rng: experiments(rng, 2, 1, steps=3)),
+        Probe("two runs of three steps", lambda rng: experiments(rng, 2, 2, steps=3)),
+        # with scans of two landmarks of the map; its number of NIS is not that of its steps
+        Probe("a run of six steps", lambda rng: experiments(rng, 2, 1, steps=6)),
+        Probe(
+            "landmarks behind the robot", lambda rng: experiments(rng, 3, 1, steps=6, behind=True)
+        ),
+        Probe("an unknown true pose", lambda rng: experiments(rng, 2, 1, known=False, steps=3)),
     ),
     needs=("06-augment", "06-update"),
     begins=(

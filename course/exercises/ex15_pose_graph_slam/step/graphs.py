@@ -40,7 +40,7 @@ def _one(rng, pairs, noise, off):
 
 def drawn_information(rng):
     sigma = rng.uniform(0.3, 1.6, 3)
-    mixed = np.eye(3) + sized(rng, 0.2, 0.5, (3, 3))
+    mixed = np.eye(3) + np.triu(sized(rng, 0.2, 0.5, (3, 3)), 1)  # never singular
     return np.linalg.inv(mixed @ np.diag(sigma**2) @ mixed.T)
 
 
