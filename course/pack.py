@@ -3,6 +3,7 @@
 import argparse
 import io
 import re
+import shutil
 import sys
 import tomllib
 import zipfile
@@ -104,6 +105,8 @@ def write_zip(target, files):
 
 
 def _write_folder(folder, files):
+    for name in FOLDERS:  # an earlier edition may have left files that this one lacks
+        shutil.rmtree(folder / name, ignore_errors=True)
     for name, data in files.items():
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / name).write_bytes(data)
@@ -129,6 +132,8 @@ def main(argv=None):
     parser.add_argument("--folder", type=Path, help="write into this folder, without pages")
     options = parser.parse_args(argv)
     if options.folder:
+        if (options.folder / ".git").exists():
+            parser.error(f"{options.folder} is a checkout; give a folder that the pack may replace")
         _write_folder(options.folder, contents())
         return 0
     target = Path(f"{TOP}-lecturer.zip" if options.lecturer else f"{TOP}.zip")

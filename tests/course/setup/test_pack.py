@@ -118,6 +118,19 @@ def test_what_was_drawn_in_a_lecture_stays_with_the_lecturer(tmp_path, monkeypat
     assert list(pack.lecturers_contents(tmp_path)) == ["notebooks/07_a.ipynb"]
 
 
+def test_a_folder_keeps_no_file_of_an_earlier_edition(tmp_path, monkeypatch):
+    monkeypatch.setattr(pack, "contents", lambda: {"notebooks/new.ipynb": b"{}"})
+    (tmp_path / "notebooks").mkdir()
+    for name in ("notebooks/old.ipynb", "settings.toml"):
+        (tmp_path / name).touch()
+    assert pack.main(["--folder", str(tmp_path)]) == 0
+    left = {str(p.relative_to(tmp_path)) for p in tmp_path.rglob("*") if p.is_file()}
+    assert left == {"notebooks/new.ipynb", "settings.toml"}
+    (tmp_path / ".git").mkdir()
+    with pytest.raises(SystemExit):
+        pack.main(["--folder", str(tmp_path)])
+
+
 def test_students_get_no_notes_and_lecturers_do(packed):
     note = "*For the lecturer:*"
     path = next((pack.ROOT / "notebooks").glob("04_*.ipynb"))
