@@ -92,7 +92,7 @@ export async function restart(deck) {
   clearTimeout(deck.restarting);
   deck.restarting = undefined;
   deck.notice("restarting …", Infinity);
-  if (!await freshKernel(deck.panel.sessionContext).catch(() => false)) return deck.notice("");
+  if (!await deck.health.mend(freshKernel(deck.panel.sessionContext))) return deck.notice("");
   const follow = codeOf(deck, deck.cell + 1);
   if (await runAll(deck) && follow.length) await runThese(deck, follow, "running the cells that follow …");
 }

@@ -32,7 +32,7 @@ export class Health {
     const probe = () => this.#probe();
     const status = (_, now) => {
       if (DIED.includes(now)) this.#results = "died";
-      else if (now === "restarting") this.#results ||= "empty";
+      else if (now === "restarting" && !this.mending) this.#results ||= "empty";
       look();
     };
     const { connectionFailure } = deck.app.serviceManager;
@@ -65,6 +65,13 @@ export class Health {
     this.used = true;
     this.#results = "";
     this.#look();
+  }
+
+  // Await a restart that the lecturer asked for; cells run after it.
+  async mend(restarted) {
+    this.#results = "";
+    this.mending = true;
+    return restarted.catch(() => false).finally(() => { this.mending = false; });
   }
 
   // Resolves when what runs will never end, because the kernel or the server is gone.
