@@ -21,7 +21,7 @@ def anchors(text):
 def test_links_and_make_targets_lead_somewhere(page):
     text = page.read_text(encoding="utf-8")
     targets = set(re.findall(r"^([\w-]+):", (ROOT / "Makefile").read_text("utf-8"), re.M))
-    assert set(re.findall(r"`make ([\w-]+)", text)) <= targets
+    assert set(re.findall(r"`make (?:-C \S+ )?([\w-]+)", text)) <= targets
     for link in re.findall(r"\]\(([^)\s]+)\)", text):
         if "://" in link:
             continue
