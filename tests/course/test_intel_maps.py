@@ -33,6 +33,6 @@ def test_the_recording_gives_the_stored_maps(tmp_path, recording):
             np.testing.assert_allclose(made[name], kept[name], rtol=0.05)
         for (
             name
-        ) in intel_maps.SIDES:  # cells: another machine rounds a point into the next; 88 % seen
+        ) in intel_maps.SIDES:  # cells; another machine rounds a point into the next: 88 %
             same = set(map(tuple, made[name])) & set(map(tuple, kept[name]))
             assert len(same) > 0.8 * len(kept[name])
