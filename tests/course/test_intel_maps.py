@@ -31,6 +31,8 @@ def test_the_recording_gives_the_stored_maps(tmp_path, recording):
         for name in (*intel_maps.ERRORS, "relations", "readings", "driven"):
             # processors round differently, and a log of 900 m magnifies that: 1.1 % were seen
             np.testing.assert_allclose(made[name], kept[name], rtol=0.05)
-        for name in intel_maps.SIDES:  # cells; another machine rounds a point into the next: 88 %
-            same = set(map(tuple, made[name])) & set(map(tuple, kept[name]))
-            assert len(same) > 0.8 * len(kept[name])
+        for name in intel_maps.SIDES:  # cells: another machine rounds a point into the next
+            shifts = np.array(list(np.ndindex(3, 3))) - 1
+            near = set(map(tuple, (made[name][:, None] + shifts).reshape(-1, 2)))
+            same = near & set(map(tuple, kept[name]))
+            assert len(same) > 0.9 * len(kept[name])
