@@ -4,10 +4,25 @@ import numpy as np
 import pytest
 from scipy.stats import chi2
 
-from slamlab.geometry import between, compose
+from slamlab.geometry import between, compose, wrap
 from slamlab.posegraph import PoseGraph, edge_error, edge_jacobians
 from tests.slamlab.square_tour import INFORMATION, SIDE, SIGMA, square_tour, whitened
 from tests.slamlab.support import refuses
+
+
+@pytest.mark.slow
+def test_the_covariances_are_those_of_many_runs():
+    exact, true = square_tour(np.random.default_rng(0), noise=0, drift=0)
+    inverse = np.linalg.inv(exact.covariances()[1:])
+    seen, runs = [], 150
+    for seed in range(runs):
+        graph, _ = square_tour(np.random.default_rng([7, seed]))
+        graph.optimise()
+        error = (graph.poses - true)[1:]
+        error[:, 2] = wrap(error[:, 2])
+        seen.append(np.einsum("na,nab,nb->n", error, inverse, error))
+    # each pose's NEES has the mean of a χ² of 3 degrees, within what 150 runs can tell
+    assert np.abs(np.mean(seen, axis=0) - 3).max() < 6 * np.sqrt(6 / runs)
 
 
 def test_the_covariances_are_blocks_of_the_dense_inverse():

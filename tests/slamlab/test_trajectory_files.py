@@ -22,6 +22,16 @@ def wandering():
     return Trajectory(0.5 * np.arange(len(poses)), np.array(poses))
 
 
+def test_evo_reads_the_same_poses(tmp_path):
+    trajectory = wandering()
+    save_tum(trajectory, tmp_path / "way")
+    theirs = file_interface.read_tum_trajectory_file(tmp_path / "way")
+    np.testing.assert_array_equal(theirs.timestamps, trajectory.times)
+    np.testing.assert_allclose(theirs.positions_xyz[:, :2], trajectory.poses[:, :2])
+    for T, pose in zip(theirs.poses_se3, trajectory.poses, strict=True):
+        assert np.arctan2(T[1, 0], T[0, 0]) == pytest.approx(pose[2])
+
+
 def test_files_of_evo_are_read(tmp_path):
     trajectory = wandering()
     save_tum(trajectory, tmp_path / "way")
