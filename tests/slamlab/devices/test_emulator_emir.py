@@ -85,6 +85,16 @@ def test_an_invalid_frame_moves_nothing_and_is_counted():
     assert body.pose[0] > 0.1
 
 
+@given(st.lists(st.integers(1, 12), min_size=1, max_size=30))
+def test_commands_are_parsed_in_any_chunks(cuts):
+    machine, _ = emir()
+    data, at, t = INFO + commands.move(3, -4) + commands.beep(0.5), 0, 0.0
+    for cut in [*cuts, len(data)]:
+        machine.feed(data[at : at + cut], t)
+        at, t = at + cut, t + 0.001
+    assert machine.commands == [(0x10, 1, 0), (1, 3, 0xFC), (4, 5, 0)]
+
+
 def test_counters_overflow_and_differences_modulo_256_give_the_path():
     machine, _ = emir()
     statuses = statuses_of(machine, INFO + commands.move(100, 60), 0.0, 12.0)

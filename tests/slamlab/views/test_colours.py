@@ -43,6 +43,13 @@ def distance(first, second, vision):
     return np.linalg.norm(lab(vision @ linear(first)) - lab(vision @ linear(second)))
 
 
+def test_the_simulation_leaves_greys_and_takes_red_from_green():
+    for grey in ("#000000", "#7F7F7F", "#FFFFFF"):
+        assert DEUTERANOPIA @ linear(grey) == pytest.approx(linear(grey), abs=1e-5)
+    full = distance("#C04040", "#40A040", np.eye(3))
+    assert distance("#C04040", "#40A040", DEUTERANOPIA) < full / 2
+
+
 def test_contrast_agrees_with_wcag():
     assert contrast("#000000") == pytest.approx(21)
     assert contrast("#FFFFFF") == pytest.approx(1)
