@@ -106,8 +106,8 @@ def title(mark: Mark, student=None) -> str:
 
 
 TEMPLATES.filters |= {"number": number, "points": points}
-TEMPLATES.globals |= {"laws_of": laws_of, "classes": CLASSES, "reason": reason, "failed": FAILED}
-TEMPLATES.globals |= {"advice": advice, "how_cells_ran": how_cells_ran}
+TEMPLATES.globals |= {"laws_of": laws_of, "classes": CLASSES, "reason": reason, "failed": FAILED,
+                      "advice": advice, "how_cells_ran": how_cells_ran}  # fmt: skip
 
 
 def write_feedback_page(out: Path, mark: Mark):

@@ -20,7 +20,7 @@ Arrays = Mapping[str, np.ndarray]
 MAX_NUMBERS = 500_000
 """Largest size of one output: no right answer is larger, and the pipe limits a message."""
 
-_LINE_OF_SYNTAX_ERROR = re.compile(r" \(<cell \d+>, line (\d+)\)$")
+_LINE_OF_SYNTAX_ERROR = re.compile(r" \((<cell \d+>), line (\d+)\)$")
 _CELL = re.compile(r"<cell |<ipython-input|[/\\](ipykernel|xpython)_")
 
 
@@ -175,9 +175,8 @@ def describe_exception(error: BaseException) -> str:
         text = str(error)[:1000].strip().splitlines()
     except Exception:  # str() of a student's exception class may fail, too
         text = []
-    text = _LINE_OF_SYNTAX_ERROR.sub(
-        r" (line \1 of the cell)", text[0][:300] if text else "no message"
-    )
+    text = text[0][:300] if text else "no message"
+    text = _LINE_OF_SYNTAX_ERROR.sub(lambda found: line_in_cell(*found.groups()), text)
     return f"{type(error).__name__}: {text}{where}"
 
 
