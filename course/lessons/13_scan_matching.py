@@ -957,7 +957,7 @@ true_steps = between(run.truth.poses[:-1], run.truth.poses[1:])
 degrees_off, metres_off = [0, 15, 30, 45, 60, 90, 180], [0, 0.25, 0.5, 1.0]
 
 
-def share_correct(matcher, degrees, metres, rng, tries=12):
+def share_correct(matcher, degrees, metres, rng, tries=9):
     """The share of guesses with these errors, in random directions, that converge to the truth."""
     correct = []
     for k in np.arange(tries) % 3:
@@ -977,13 +977,13 @@ for name in ("point to point", "bare", "point to line", "match"):
 
 # %% slideshow={"slide_type": "subslide"} answers="13-basin" tags=["folded"]
 labels = "position error [m]", "heading error of the guess [°]"
-tried = 12 * 2 * len(metres_off)  # guesses with heading errors of 45° and 60°
+tried = 9 * 2 * len(metres_off)  # guesses with heading errors of 45° and 60°
 
 
 def share_of(name, first, end):
     """The share of guesses in some rows that converge to the truth, with its 95 % interval."""
     row = basins[name][first:end]
-    return percent(share_interval(round(12 * row.sum()), 12 * row.size))
+    return percent(share_interval(round(9 * row.sum()), 9 * row.size))
 
 
 fig, _ = views.cells(basins, metres_off, degrees_off, *labels, size=(9.5, 4.2))

@@ -856,17 +856,17 @@ views.explore(
 # With the numbers of the thesis each measured turn is 6° too small, and the estimated loop does not
 # close. Increase `path_cm`: the trajectory becomes larger, but its end does not come nearer to the
 # start. Set `turn_degrees` to 2.14: the loop closes. Do other runs give the same result? The wheels
-# slip at random, so we simulate forty runs:
+# slip at random, so we simulate thirty runs:
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="14-harm"
-# forty round trips, with each pair of scale factors
+# thirty round trips, with each pair of scale factors
 PAIRS = {
     "thesis": (1, 2),
     "path correct": (1.03, 2),
     "turn correct": (1, 2.14),
     "both": (1.03, 2.14),
 }
-trips = [trials.round_trip(seed) for seed in range(40)]
+trips = [trials.round_trip(seed) for seed in range(30)]
 off = {name: np.array([each.error(*pair) for each in trips]) for name, pair in PAIRS.items()}
 nearer = {name: np.sum(each < off["thesis"]) for name, each in off.items()}
 for name, each in off.items():

@@ -83,9 +83,9 @@ def factorise(H, order="NATURAL"):
 
 def _fill_reducing_order(pairs, free):
     """Return a fill-reducing order of the free poses by minimum degree, for their 3 × 3 blocks."""
-    count = len(free)
-    links = sparse.coo_array((np.ones(len(pairs)), tuple(pairs.T)), shape=(count, count)).tocsr()
-    links = (links + links.T)[free][:, free]
+    number, alone = np.cumsum(free) - 1, np.arange(np.count_nonzero(free))
+    i, j = number[pairs[free[pairs].all(axis=1)]].T
     # any matrix of this pattern is suitable, such as a diagonally dominant one
-    links = (links + sparse.diags_array(links.sum(axis=1) + 1)).tocsc()
+    cells = np.concatenate([i, j, i, j, alone]), np.concatenate([j, i, i, j, alone])
+    links = sparse.csc_array((np.ones(len(cells[0])), cells), shape=(len(alone),) * 2)
     return np.argsort(factorise(links, "MMD_AT_PLUS_A").perm_c)

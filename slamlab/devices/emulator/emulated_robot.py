@@ -101,7 +101,7 @@ class EmulatedRobot:
 
     def _blocked(self, v):
         """Return whether the robot collides with an obstacle in its direction of travel."""
-        x, y, theta = self._simulator.pose
-        fan = theta + (np.pi if v < 0 else 0) + np.linspace(-1, 1, 9)
+        fan = (np.pi if v < 0 else 0) + np.linspace(-1, 1, 9)
+        pose = np.broadcast_to(self._simulator.pose, (len(fan), 3))
         reach = abs(v) * TIME_STEP + self._simulator.robot.radius
-        return v != 0 and self.world.cast((x, y), fan).min() < reach
+        return v != 0 and self.cast(self._time, pose, fan).min() < reach
