@@ -6,6 +6,7 @@ keeps the student's answers."""
 
 import os
 import sys
+import tempfile
 from datetime import datetime
 from pathlib import Path
 
@@ -15,6 +16,8 @@ from classroom.coursework.notebook_update import UpdateError, update_notebooks
 
 INSTALLATION = Path(__file__).resolve().parents[2]
 FOLDER = "slam-course"  # in the home
+# kernels of a whole class that start at once would choose the same ports
+SOCKETS = "--KernelManager.transport=ipc"
 PHONES = "--ServerApp.jpserver_extensions={'classroom.hub.phones': True}"
 EMPTY_ZIP = b"PK\x05\x06" + bytes(18)
 
@@ -45,7 +48,9 @@ def main():
     except (UpdateError, OSError) as error:  # the student can still work
         lines = [f"the notebooks were not updated: {error}"]
     print(*lines, sep="\n", flush=True)
-    server = [sys.executable, "-m", "jupyterhub.singleuser", PHONES, *sys.argv[1:]]
+    # the path of a socket has at most 107 letters
+    os.environ["JUPYTER_RUNTIME_DIR"] = tempfile.mkdtemp(prefix="jupyter-")
+    server = [sys.executable, "-m", "jupyterhub.singleuser", SOCKETS, PHONES, *sys.argv[1:]]
     os.execv(sys.executable, server)
 
 

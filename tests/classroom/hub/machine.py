@@ -64,7 +64,7 @@ class Machine:
         python = Path(sys.base_prefix)
         command = ["bwrap", "--die-with-parent", "--unshare-pid", "--cap-add", "ALL"]
         command += ["--ro-bind", "/", "/", "--dev-bind", "/dev", "/dev", "--proc", "/proc"]
-        command += ["--tmpfs", ADMIN, "--tmpfs", "/tmp", "--tmpfs", "/var/lib"]
+        command += ["--tmpfs", ADMIN, "--perms", "1777", "--tmpfs", "/tmp", "--tmpfs", "/var/lib"]
         command += ["--bind", self._etc, "/etc", "--bind", self.home, "/home"]
         for path in (python, self.installation):  # all may enter the folders around them
             for folder in reversed(path.parents[:-1]):

@@ -126,6 +126,8 @@ def test_two_students_work_at_once_and_reach_nothing_of_each_other(students, hub
         assert outputs and all(output.output_type != "error" for output in outputs)
     assert verdicts["ada"] != verdicts["alan"]
     alan, ada = students["alan"], students["ada"]
+    code = "from ipykernel.kernelapp import IPKernelApp; print(IPKernelApp.instance().transport)"
+    assert alan.page.evaluate(ASK, code).strip() == "ipc"  # no port that others can reach
     for path in ("/home/ada", "/home/ada/slam-course/progress.json", str(machine.installation)):
         code = f"import os; print(os.access({path!r}, os.W_OK), os.access({path!r}, os.R_OK))"
         readable = path.startswith(str(machine.installation))
