@@ -50,7 +50,7 @@ def build(out, work=WORK, rendered=None, whole=True):
     done = subprocess.run(
         [
             *(sys.executable, "-m", "sphinx", "--quiet", "--fail-on-warning", "--keep-going"),
-            *("-b", "html", "-c", str(HERE), "-d", str(place / "doctrees")),
+            *("-j", "auto", "-b", "html", "-c", str(HERE), "-d", str(place / "doctrees")),
             *("-D", f"katex_modules={modules}", "-D", f"html_static_path={source / '_static'}"),
             *(str(source), str(html)),
         ],

@@ -1,5 +1,9 @@
 """Sphinx configuration of the site; ``course.site.building`` adds machine-dependent settings."""
 
+import gc
+
+gc.set_threshold(100_000)  # parsed pages are many objects, and little of them is garbage
+
 project = "An executable SLAM course"
 author = "the slamlab authors"
 copyright = author

@@ -6,7 +6,6 @@ from types import SimpleNamespace
 
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
-from PIL import Image
 
 from course.site.steady_layout import SteadyLayout
 from slamlab.live import films
@@ -14,12 +13,12 @@ from slamlab.live.drive_control import velocities
 from slamlab.live.estimator_run import EstimatorRun
 from slamlab.views import sliders
 from slamlab.views.alt_text import describe
+from slamlab.views.figure_display import PACKING, render
 from slamlab.views.figure_layout import arrange
 
-MOST_VALUES = 21  # of a slider
-MOST_OF_SEVERAL = 13  # of each, where there are several
-MOST_PLAYED = 49  # of one that is played like a film
-PALETTE = 64  # colours of a picture
+MOST_VALUES = 11  # of a slider
+MOST_OF_SEVERAL = 7  # of each, where there are several
+MOST_PLAYED = 25  # of one that is played like a film
 MOST_FRAMES = 300  # of a film
 MOST_STEPS = 1000
 
@@ -103,14 +102,10 @@ class Renderer:
         """Return a figure as a lossless WebP image, and its alternative text."""
         text = alt(**chosen) if callable(alt) else alt
         file = self._folder / f"{self._stem()}-{number}.webp"
-        canvas = FigureCanvasAgg(fig)
+        FigureCanvasAgg(fig)  # measures text
         arrange(fig, layout)
-        fig.set_layout_engine("none")  # the layout is final
         # the notebook's pictures have twice this resolution; so many pictures would be too large
-        canvas.draw()  # once, where savefig would draw twice
-        drawn = Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB")
-        picture = drawn.quantize(PALETTE, dither=Image.Dither.NONE)
-        picture.convert("RGB").save(file, "WEBP", lossless=True, quality=75, method=4)
+        render(fig).save(file, "WEBP", **PACKING)
         return file.name, f"{describe(fig)} {text.strip()}"
 
     def _stem(self):

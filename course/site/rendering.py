@@ -4,6 +4,7 @@ A lesson is run once in a separate process, ``python -m course.site.rendering NO
 result is cached until the code changes.
 """
 
+import gc
 import hashlib
 import json
 import os
@@ -104,6 +105,7 @@ def main(path, folder):
     from course.site.moving_pictures import Renderer
     from slamlab import live, views
 
+    gc.set_threshold(100_000)  # figures are many objects, and little of them is garbage
     shell, renderer = InteractiveShell.instance(), Renderer(Path(folder))
     views.explore, live.watch = renderer.explore, renderer.live
     views.show = lambda *_, **__: None  # still pictures are stored already

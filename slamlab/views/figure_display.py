@@ -31,7 +31,7 @@ def png(fig):
 def _packed(fig, kind, **packing):
     with _sharp(fig):
         arrange(fig)
-        picture = _render(fig)
+        picture = render(fig)
     packed = io.BytesIO()
     picture.save(packed, kind, **packing)
     return packed.getvalue()
@@ -48,7 +48,7 @@ def _sharp(fig):
         fig.dpi = page
 
 
-def _render(fig):
+def render(fig):
     """Render a figure without computing the layout again."""
     canvas = FigureCanvasAgg(fig)
     engine = fig.get_layout_engine()

@@ -16,8 +16,6 @@ def lay_out(fig):
     engine = fig.get_layout_engine()
     if engine is None:
         return
-    for spine in (spine for ax in fig.axes for spine in ax.spines.values()):
-        spine.set_in_layout(False)  # it has the size of its axes, and is slow to measure
     free = all(ax.get_aspect() == "auto" for ax in fig.axes)
     before = None
     for _ in range(1 if free else MAX_ITERATIONS):
@@ -30,6 +28,8 @@ def lay_out(fig):
 
 def arrange(fig, lay_out=lay_out):
     """Group the digits of large numbers in all texts, then make room for titles and legends."""
+    for spine in (spine for ax in fig.axes for spine in ax.spines.values()):
+        spine.set_in_layout(False)  # it has the size of its axes, and is slow to measure
     for text in _texts(fig):
         text.set_text(grouped(text.get_text()))
     lay_out(fig)
