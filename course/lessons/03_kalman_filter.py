@@ -994,7 +994,7 @@ ask(
     {
         "below the χ² interval": "the NEES is below the interval if P is too large. The P of this "
         "filter is too small.",
-        "inside the χ² interval": "measurements correct its estimate, but never its P.",
+        "inside the χ² interval": "the values of the measurements correct its estimate, but its P does not depend on them.",
         "above the χ² interval": "its P is too small for its errors: it is overconfident.",
     },
     right="above the χ² interval",

@@ -463,9 +463,8 @@ def one_measurement(range_within, d_abs):
     return fig
 
 
-rng = np.random.default_rng(5)
-r = np.sqrt(rng.uniform(1.6**2, 2.4**2, 10_000))  # uniform over the area
-without_cosine = 100 * np.mean(r * np.cos(rng.uniform(-0.6, 0.6, 10_000)) < 1.6)
+# the area between the chord and the arc of 1.6 m, as a share of the set's
+without_cosine = 100 * 1.6**2 * (np.tan(0.6) - 0.6) / (0.6 * (2.4**2 - 1.6**2))
 
 # %% slideshow={"slide_type": "fragment"} answers="10-near"
 views.explore(
@@ -706,9 +705,10 @@ for k in range(5):
 # > 5. *Contract* the robot's box: the same edges rotated by $\pi$, shifted outwards by the landmark's
 # >    box.
 # > 6. *Contract* the heading by (10.10).
-# > 7. If a set is empty, report that a bound was violated. If a side shrank by more than 1 %, go to 3, at most 20 times.
+# > 7. If a set is empty, report that a condition was violated. If a side shrank by more than 1 %, go to 3, at most 20 times.
 # >
-# > *Output:* boxes that contain the truth, if every error is within its bound
+# > *Output:* boxes that contain the truth, if the input boxes contain it, every error is within its bound, and
+# > landmark $j$ is the right one
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 # predict, initialise and update on a run of 60 steps
@@ -1243,7 +1243,7 @@ for name, k in (("x", 0), ("y", 1)):
 #
 # Equation (10.6) was derived for angles below $\pi/2$. Which error results if the heading is hardly
 # known, and $d_{\mathrm{abs}}$ is larger than $\pi/2$? We use the four edges nevertheless, and compute
-# the share of the feasible points (uniform in range and angle) that they cut off.
+# the share of the feasible points that they cut off.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Ask why the near edge changes sides: the cosine in (10.6) becomes negative. The

@@ -459,8 +459,8 @@ ask(
     "The box filter with bounds of 4.5 σ associates the corners by its own rule: a measured corner is "
     "associated with the landmark whose box it overlaps. **In how many of the scans is the robot outside its box?**",
     {
-        "in none: 4.5 standard deviations are enough": "the noise stays within its bounds. But the guarantee of "
-        "lesson 10 has a second condition: every association must be right.",
+        "in none: 4.5 standard deviations are enough": "the noise hardly ever exceeds 4.5 σ. But the guarantee of "
+        "lesson 10 has further conditions, among them that every association is right.",
         "in a few of a thousand": "false associations are not rare: a wide box overlaps many measurements of "
         "other corners, and poses that a false association excludes stay excluded.",
         "in about a fifth": "one false association can exclude the true pose, and then the robot is outside "

@@ -1211,8 +1211,8 @@ naive_off, corrected_off = trials.errors(seen_live.pair.estimator, true.poses[-1
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Show a lost connection while the cell runs: unplug the USB cable of the *lidar* of
-# a real robot, or run `seen_live.pair.source.bench["lidar"].faults.unplugged = True` in a new cell for
-# the emulated robot. A message appears below the figure after a short time; *reset* starts the run
+# a real robot, or run `seen_live.pair.source.bench["lidar"].faults.unplugged = True` for the emulated
+# robot, in a cell that you add below before the lecture (slides have no new cells). A message appears below the figure after a short time; *reset* starts the run
 # again. For a class without robots, use your recording: write `lambda rng: sources.open("my.rec")` for
 # the first button.
 

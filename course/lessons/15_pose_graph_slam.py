@@ -902,7 +902,8 @@ views.show(
 #
 # A loop has three components, so with a correct model $d^2$ of a right loop is below 11.3 in 99 of 100
 # cases. We use the {= np.sum(~twins.false) =} right loops of the first run, and
-# {= np.sum(twins.false) =} false loops of the second run (those whose keyframes exist in both runs).
+# {= np.sum(twins.false) =} false loops of the second run (those whose keyframes exist in both runs). The
+# {= twins.with_gate.counts["loops outside the gate"] =} loops that the gate rejected in the first run are all false.
 # For each of these loops we compute $d^2$ in a graph of **odometry alone**.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
@@ -1199,10 +1200,11 @@ for some_right in (84, 8, 3, 1):
 print("the runner-up of the last: cost + {:.1f}, {:.1f} m away (rms)".format(*optimum.runner_up))
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="15-liars"
-# If few right loops remain, the false loops may agree with each other at least as well: *perceptual
-# aliasing*. If the costs of two different maps differ by less than $3\Phi$, the result is **ambiguous**: the
-# measurements hardly favour one of them, and only further measurements can decide. (If more false loops
-# than right loops agree, even the most likely map is wrong.)
+# In all four rows the false loops are rejected: they agree with each other (*perceptual aliasing*), but they
+# contradict the odometry, which counts as well. In the last row the result is **ambiguous**: the costs of two
+# different maps differ by less than $3\Phi$. Here the runner-up rejects the right loop, too, and only further
+# measurements can decide. (If many false loops agree with each other, and contradict the odometry by less than
+# $\Phi$ each, even the most likely map is wrong.)
 #
 # A complete system uses both a gate and a kernel. Further methods are *switchable constraints* (DCS is
 # their closed form), and *pairwise consistency maximisation*, which accepts the largest set of loops of

@@ -28,7 +28,8 @@ def cut_off(d_r, d_abs, r=2.0, n=4000):
     """Return the share of the positions allowed by an observation (bounds d_r [m], d_abs [rad])
     that the observation's four edges would exclude if edges were used for every d_abs."""
     rng = np.random.default_rng(7)
-    ranges, angles = rng.uniform(r - d_r, r + d_r, n), rng.uniform(-d_abs, d_abs, n)
+    ranges = np.sqrt(rng.uniform((r - d_r) ** 2, (r + d_r) ** 2, n))  # uniform over the area
+    angles = rng.uniform(-d_abs, d_abs, n)
     places = ranges * np.array([np.cos(angles), np.sin(angles)])
     lines = np.array(sector_edges(r, d_r, 0.0, d_abs))
     return float((lines[:, :2] @ places > lines[:, 2:] + 1e-9).any(axis=0).mean())

@@ -93,7 +93,7 @@ def run(arguments) -> int:
 async def _serve(arguments, live_run, console_server):
     from slamlab.live.console.control_panel import ControlPanel
 
-    title = f"{arguments.estimator} on {arguments.source}"
+    title = f"{arguments.estimator} on {arguments.source.split(':/')[0]}"
     panel = ControlPanel(live_run, title, arguments.seed, arguments.speed, arguments.map)
 
     def started(address):

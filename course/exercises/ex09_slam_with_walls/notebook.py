@@ -426,18 +426,18 @@ ask(
 # **Your task.** Return the walls of the room, estimated from the whole run. The first scan is taken at the start,
 # before the first control input. You may use all functions above.
 #
-# The check computes twelve maps. It compares the walls of your map with those of the room: two walls match if
+# The check computes 36 maps. It compares the walls of your map with those of the room: two walls match if
 # their $\alpha$ differ by less than 0.2 rad, and their distances from the mean true position of the robot by less
 # than 0.5 m. Each wall matches one other wall at most. A wall of your map without a match is false, and a wall of
 # the room without a match is missing. The *faults* of a map are its false walls and its missing walls together.
 # Each step that you reach adds its points.
 #
-# | step | faults of the twelve maps | points |
+# | step | faults of the 36 maps | points |
 # | --- | --- | --- |
-# | 1 | at most 3 faults in at least 6 maps | 0.5 |
-# | 2 | at most 1 fault in at least 6 maps | 1 |
-# | 3 | at most 1 fault in at least 7 maps | 2 |
-# | 4 | at most 1 fault in at least 7 maps, and none in at least 5 of the twelve maps | 2 |
+# | 1 | at most 3 faults in at least 18 maps | 0.5 |
+# | 2 | at most 1 fault in at least 18 maps | 1 |
+# | 3 | at most 1 fault in at least 21 maps | 2 |
+# | 4 | at most 1 fault in at least 21 maps, and none in at least 15 of the 36 maps | 2 |
 #
 # Together with 0.5 points for unchanged arguments, these are the 6 points of the task. For step 1, the check also
 # computes ten maps from runs without clutter and without temporary objects: at least five of them must have at
@@ -537,5 +537,5 @@ def _():
 #
 # Save the notebook. The cell below then shows the grader's verdict; the grader draws other inputs. After that, drive
 # the robot yourself in the live view of lesson 09. **Next:** lesson
-# [10 · Set-membership SLAM: the BOR filter](../notebooks/10_set_membership_slam.ipynb) computes sets that are
-# guaranteed to contain the true state.
+# [10 · Set-membership SLAM: the BOR filter](../notebooks/10_set_membership_slam.ipynb) computes sets that
+# contain the true state, as long as its conditions hold.

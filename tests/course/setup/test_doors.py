@@ -162,10 +162,13 @@ def test_what_texts_start_is_a_door():
 
 @cache
 def options_in_texts():
-    """The options that texts give to each module."""
-    found = {}
+    """The options that texts give to each module, also through a variable of Make."""
+    found, passed = {}, re.findall(r"\$\(RUN\) ([\w.]+) \$\((\w+)\)", MAKEFILE)
     for text in texts().values():
-        for name, rest in MODULE.findall(text):
+        through = [
+            (name, rest) for _, rest in TARGET.findall(text) for name, v in passed if v in rest
+        ]
+        for name, rest in MODULE.findall(text) + through:
             found.setdefault(f"python -m {name}", set()).update(re.findall(r"--[\w-]+", rest))
     return found
 

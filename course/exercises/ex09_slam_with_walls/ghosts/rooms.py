@@ -117,7 +117,7 @@ def _pair(rng, things, false):
     )
 
 
-def drives(rng, rooms=6, things=3, false=2):
+def drives(rng, rooms=18, things=3, false=2):
     """Two runs through each room.
     things : temporary objects of a room; false : most false measurements of a scan.
     """

@@ -66,6 +66,17 @@ def _gap(inputs):
     return {"scans since the last sighting of each wall (−1: no sighting yet)": gap}
 
 
+def _while_inside(name):
+    """Judge a count as long as the book has the right walls: a wrong book is judged already."""
+
+    def holds(inputs, outputs):
+        right = truth(inputs)
+        agree = np.logical_and.accumulate(outputs["inside"] == right["inside"], axis=1)
+        return ((outputs[name] == right[name]) | ~agree).all(axis=(1, 2))
+
+    return holds
+
+
 def _counts(name, says, asks, holds=None, **more):
     def same(inputs, outputs):
         return (outputs[name] == truth(inputs)[name]).all(axis=(1, 2))
@@ -123,6 +134,7 @@ LIFE = Task(
             "sightings",
             "a wall has one sighting for each scan with its id since it entered the book",
             "How many sightings does a scan add if it contains the id of a wall twice?",
+            _while_inside("sightings"),
             after=("inside",),
             step=_gap,
         ),
@@ -130,6 +142,7 @@ LIFE = Task(
             "used",
             "`used` contains each wall of this scan with at least N sightings, once",
             "Does the sighting of this scan count? And can a wall be used without a measurement?",
+            _while_inside("used"),
             after=("inside", "sightings"),
             step=_observed,
         ),

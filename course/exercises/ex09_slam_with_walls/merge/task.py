@@ -155,7 +155,7 @@ MERGE = Task(
         Probe(
             "opposite normals but for 25°", lambda rng: pairs(rng, 4, 3, True, **GIVEN), OPPOSITE
         ),
-        Probe("α near π and −π", lambda rng: pairs(rng, 4, 3, alpha=(3.1, 3.13)), JUMP),
+        Probe("α near π and −π", lambda rng: pairs(rng, 4, 3, alpha=(3.12, 3.13)), JUMP),
         Probe("a wall near the world's origin", lambda rng: pairs(rng, 4, 3, rho=(0.01, 0.04))),
         Probe("normals that differ by 25°", lambda rng: pairs(rng, 4, 3, **GIVEN)),
         Probe("a map of two walls", lambda rng: pairs(rng, 2, 2)),

@@ -3,7 +3,8 @@
 
 const ALONE = new Set(["SCRIPT", "STYLE", "BUTTON", "INPUT", "SELECT", "TEXTAREA", "TEMPLATE", "IFRAME", "NOSCRIPT"]);
 const NOT_SHOWN = ".jp-InputPrompt, .jp-OutputPrompt, .jp-Collapser, .jp-InternalAnchorLink, .jp-CellFooter, "
-  + ".jp-Toolbar, .jp-Cell-Placeholder, .slamlab-dead, mjx-assistive-mml";
+  + ".jp-Toolbar, .jp-Cell-Placeholder, .slamlab-dead, "
+  + ".widget-slider, .widget-dropdown, .widget-play, mjx-assistive-mml";
 const KEPT = new Set(("H1 H2 H3 H4 H5 H6 P UL OL LI DL DT DD TABLE THEAD TBODY TR TH TD CAPTION PRE CODE BLOCKQUOTE "
   + "STRONG EM B I U S SUB SUP BR HR FIGURE FIGCAPTION DIV KBD").split(" "));
 const SPANS = ["colspan", "rowspan", "start", "scope"];
