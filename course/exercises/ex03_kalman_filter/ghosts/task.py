@@ -313,11 +313,12 @@ WARY = Task(
         Diagnosis(
             "shut-out",
             "Some runs diverge, and their errors are far larger than P. If a filter has a wrong "
-            "estimate and a small P, its gate rejects correct readings. P must increase after a "
-            "rejected reading.",
+            "estimate and a small P, it rejects correct readings. P must increase after a rejected "
+            "reading, and after a doubtful one: if you average two estimates, their difference "
+            "belongs into P.",
             lambda i, o: _better(i, o) and (nees_of(i, o).mean(axis=1) > SHUT).mean() > 0.02,
             asks="What happens to P and to the next innovation after your filter rejects a "
-            "reading?",
+            "reading, or uses a part of it?",
         ),
         Diagnosis(
             "boasts",
