@@ -271,7 +271,8 @@ for name, b in {"start": START, "predicted": predicted, "updated": corrected}.it
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # **Your turn.** Predict the covariance of this first step from `A`, `START.P` and `Q`. (The function
-# `ekf_runs.locate` repeats such steps over a whole run. In the exercise you write your own version.)
+# `ekf_runs.locate` repeats such steps over a whole run. In the exercise you write your own version,
+# `localise`; its `locate` is a single update.)
 
 # %% slideshow={"slide_type": "fragment"} tags=["your-turn"]
 P_predicted = ...

@@ -35,9 +35,9 @@ def chain(start, moves):
     return np.array(track)
 
 
-def laws_of_a_pose(want, places, heading, asks, step=None):
+def laws_of_a_pose(want, places, heading, asks, step, turned):
     """Three laws of a returned pose: position, heading, wrapped heading; ``asks`` are their
-    questions."""
+    questions, ``turned`` the step of the third."""
     at = {"result": np.s_[:2]}, {"result": np.s_[2]}
     place = equals("place", 3, places, want, parts=at[0], asks=asks[0], step=step)
     turn = equals(
@@ -50,10 +50,8 @@ def laws_of_a_pose(want, places, heading, asks, step=None):
         return turn.holds(inputs, outputs) & small
 
     says = "this angle lies between −π and π"
-    wrapped = replace(
-        turn, name="wrapped", says=says, holds=within, asks=asks[2], after=(turn.name,)
-    )
-    return place, turn, wrapped
+    wrapped = replace(turn, name="wrapped", says=says, holds=within, asks=asks[2], step=turned)
+    return place, turn, replace(wrapped, after=(turn.name,))
 
 
 def parts_of_a_pose(inputs, outputs):

@@ -38,10 +38,9 @@ from slamlab.simulation import RPLIDAR_A2, worlds
 # step**: `[forward, left, turn]`, in metres, metres and radians. A robot at `[2, 1, π/2]` faces
 # along +y. After a step `[0.5, 0, 0]` its pose is `[2, 1.5, π/2]`.
 #
-# **Your task.** Return the new pose (3,): $\mathrm{pose} \oplus \mathrm{step}$ of (01.1). Note that
-# the step was measured in the frame of the *old* pose, and that the new heading must lie between
-# $-\pi$ and $\pi$. The check judges the position and the heading. A step may have any length and
-# any direction, and it may be zero. Its turn lies between $-\pi$ and $\pi$.
+# **Your task.** Return the new pose (3,): $\mathrm{pose} \oplus \mathrm{step}$ of (01.1). The check
+# judges the position and the heading. A step may have any length and any direction, and it may be
+# zero. Its turn lies between $-\pi$ and $\pi$.
 
 
 # %% name="next-pose"

@@ -428,7 +428,7 @@ def ghost_drive(rng, steps=50):
 # only the results. Each row of `zs` contains one number. `GHOSTS` and `REACH` are the same in all
 # runs.
 #
-# The check runs your filter on 120 runs of 50 steps. The check ignores the first five steps of each
+# The check runs your filter on 160 runs of 50 steps. The check ignores the first five steps of each
 # run. The *typical error* is the median over the runs of the rms error of the position. The *doubtful*
 # steps are the tenth of all steps in which a good filter has the largest variance of the position,
 # because a reading may be an outlier or a measurement; the *clear* steps are the half with the
@@ -444,7 +444,7 @@ def ghost_drive(rng, steps=50):
 # the arguments unchanged is worth another 0.5 points. A gate is welcome: with the right width it
 # reaches rows 1 and 2. Row 3 is the hardest, and multiplying the $P$ of a gate does not reach it: the
 # mean NEES must be near 2, as that of a consistent filter, in clear and in doubtful steps. Each $P$
-# must be positive definite. The check stops after 10 s.
+# must be positive definite. The check stops after 20 s.
 
 
 # %% name="wary-filter"

@@ -124,9 +124,9 @@ def _():
 # $$K = P H^{\mathsf T} S^{-1}, \qquad x \leftarrow x + K v, \qquad P \leftarrow P - K S K^{\mathsf T}.$$
 #
 # **Your task.** Return the state and the covariance after the update. `H_full` above computes $H$.
-# The map contains at least one landmark, and $P$ is positive definite. Wrap differences of bearings
-# into $(-\pi, \pi]$. The check compares your `x` and `P` with the least squares estimate from the
-# prior and the measurement, with $h$ linearised at the prior.
+# The map contains at least one landmark, and $P$ is positive definite. The check compares
+# your `x` and `P` with the least squares estimate from the prior and the measurement, with $h$
+# linearised at the prior.
 
 
 # %%

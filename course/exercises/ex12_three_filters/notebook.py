@@ -175,7 +175,7 @@ ask(
     right=39,
     tolerance=5,
     unit="%",
-    reason="even if the true share is one in four, no loss in six runs has a probability of 18 %.",
+    reason="(0 − p)² ≤ 1.96² p (1 − p)/6 gives p ≤ 1.96²/(6 + 1.96²) = 0.39.",
     wrong={
         0: "that is the estimate. But if the true share is one in ten, no loss in six runs has a probability of 53 %.",
         17: "that is one in six, the smallest share above zero that six runs can show.",

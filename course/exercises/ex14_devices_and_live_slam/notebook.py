@@ -381,8 +381,8 @@ def _():
 # This function makes a sequence from its steps:
 
 
-# %% name="way"
-def way(begin, steps):
+# %% name="sequence"
+def sequence(begin, steps):
     """The readings and the counts of a sequence that starts at the byte begin and has these steps."""
     counts = np.concatenate([[0], np.cumsum(np.array(steps, dtype=int))])
     return (begin + counts + 128) % 256 - 128, counts
@@ -412,8 +412,8 @@ def _():
         "short memory": lambda values: unwrap(values)[-100:],
     }
     for name, (values, counts) in {
-        "forwards": way(0, [50] * 6),
-        "backwards": way(0, [-50] * 6),
+        "forwards": sequence(0, [50] * 6),
+        "backwards": sequence(0, [-50] * 6),
     }.items():
         found = [driver for driver, f in drivers.items() if not np.array_equal(f(values), counts)]
         print(f"{name:>9} detects:", ", ".join(found))
@@ -436,10 +436,10 @@ def trials():
     every = np.column_stack([size, -size[::-1]]).ravel()  # each step once, ahead and back by turns
     return [
         ([], []),
-        way(7, []),
-        way(5, [0, *every]),
-        way(3, [127] * 270),
-        way(3, [-127] * 270),
+        sequence(7, []),
+        sequence(5, [0, *every]),
+        sequence(3, [127] * 270),
+        sequence(3, [-127] * 270),
     ]
     ### END SOLUTION
 

@@ -171,6 +171,7 @@ def test_stored_outputs_hold_no_warning_no_live_widget_and_no_path_of_a_machine(
             assert "application/vnd.jupyter.widget-view+json" not in mimes, cell.id
             for text in texts(output):
                 assert not re.search(r"(^|[\s\"'(=])(/(home|root|work|tmp|Users)/|[A-Z]:\\)", text)
+                assert "is not saved" not in text, "python -m course.build --force NN"
 
 
 @each_notebook

@@ -65,6 +65,16 @@ DRIFT = Task(
     shapes={"result": ()},
     laws=(
         equals(
+            "spread",
+            3,
+            "the standard deviation perpendicular to the line is right for more steps",
+            _want,
+            tolerance=NEAR,
+            asks="How far does the first error alone move the end sideways, and how far does the "
+            "last error move it? How do the variances of independent errors add?",
+            step=_on_the_way,
+        ),
+        equals(
             "few",
             1,
             "the standard deviation perpendicular to the line is right for 0, 1, 2 and 3 steps",
@@ -74,16 +84,6 @@ DRIFT = Task(
             "moves?",
             step=_on_the_way,
             main=False,
-        ),
-        equals(
-            "spread",
-            3,
-            "the standard deviation perpendicular to the line is right for more steps",
-            _want,
-            tolerance=NEAR,
-            asks="How far does the first error alone move the end sideways, and how far does the "
-            "last error move it? How do the variances of independent errors add?",
-            step=_on_the_way,
         ),
     ),
     diagnoses=(SIMULATED,),

@@ -74,6 +74,7 @@ NEXT_POSE = Task(
             "between −180° and 180°?",
         ),
         _on_the_way,
+        lambda i: {"θ + turn, not wrapped": i["pose"][:, 2] + i["step"][:, 2]},
     ),
     probes=(
         Probe("no step at all", lambda rng: _only(rng)),

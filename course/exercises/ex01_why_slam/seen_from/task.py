@@ -71,6 +71,7 @@ SEEN_FROM = Task(
             "turn from a to b?",
         ),
         _on_the_way,
+        lambda i: {"θ_b − θ_a, not wrapped": i["b"][:, 2] - i["a"][:, 2]},
     ),
     probes=(
         Probe("a and b at the same position", _led(0, 0, 1.2)),

@@ -174,7 +174,24 @@ def _right_after(*changes):
     return matches
 
 
+def _by_medians(inputs, outputs):
+    # 1.4826 times a median of deviations: over all readings, or of each beam
+    scans, found = inputs["scans"], np.maximum(outputs["result"][:, 0], 1e-9)
+    off = 1.4826 * np.abs(scans / np.median(scans, axis=1, keepdims=True) - 1)
+    beams = np.median(off, axis=1)
+    tried = np.median(off, axis=(1, 2)), np.median(beams, axis=1), beams.mean(axis=1)
+    return any(np.median(abs(np.log(found / np.maximum(t, 1e-9)))) < 0.02 for t in tried)
+
+
 MISTAKES = (
+    Diagnosis(
+        "median-of-deviations",
+        "A median of deviations is robust to a few outliers, but not to 40 % of outliers that are "
+        "all on one side. For near walls this median is a whole number of steps.",
+        _by_medians,
+        asks="How many of the deviations are zero for a near wall? On which side of the wall are "
+        "the outliers?",
+    ),
     Diagnosis(
         "swapped",
         "The two numbers are swapped. error comes first.",

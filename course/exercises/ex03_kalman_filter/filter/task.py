@@ -62,14 +62,13 @@ def everything(i):
     return {"xs": xs, "Ps": Ps}
 
 
-def _after_one(i):
-    first = everything(i | {"zs": i["zs"][:, :1]})
-    return {"x after the first measurement": first["xs"][0, 0]}
+def _x_before_one(i):
+    return {"x before the first measurement": times(i["F"], i["x"])[0]}
 
 
-def _P_after_one(i):
-    first = everything(i | {"zs": i["zs"][:, :1]})
-    return {"P after the first measurement": first["Ps"][0, 0]}
+def _P_before_one(i):
+    P = i["F"] @ i["P"] @ turned(i["F"]) + i["Q"]
+    return {"P before the first measurement": P[0]}
 
 
 FILTER = Task(
@@ -90,7 +89,7 @@ FILTER = Task(
             asks="Follow the first measurement on paper. How many steps has the system made "
             "before this measurement? With which x and P does the filter continue after the "
             "update?",
-            step=_after_one,
+            step=_x_before_one,
         ),
         equals(
             "covariances",
@@ -99,7 +98,7 @@ FILTER = Task(
             lambda i: {"Ps": everything(i)["Ps"]},
             asks="Print the variances in your Ps: they should become constant after a few steps. "
             "Which line of your code increases them, and which line decreases them?",
-            step=_P_after_one,
+            step=_P_before_one,
         ),
     ),
     needs=("03-update",),

@@ -67,9 +67,11 @@ def _of(output):
     return lambda inputs: {output: want(inputs)[output]}
 
 
-def _first(inputs):
-    found = want(inputs)
-    return {"xs[0]": found["xs"][:, 0], "Ps[0]": found["Ps"][:, 0]}
+def _predicted(inputs):
+    runs = zip(*inputs.values(), strict=True)
+    found = [filtered(x, P, u[:1], -np.ones(1), z[:1], *m) for x, P, u, _, z, *m in runs]
+    xs, Ps = map(np.concatenate, zip(*found, strict=True))
+    return {"x after the first control input": xs, "P after it, before a measurement": Ps}
 
 
 LOCALISE = Task(
@@ -100,7 +102,8 @@ LOCALISE = Task(
             want,
             angles={"xs": 2},
             asks="Which part of a step does the filter execute if there is no measurement?",
-            step=_first,
+            step="A step without a measurement is the prediction alone. It begins with the belief "
+            "after the step before it.",
             main=False,
         ),
         equals(
@@ -110,7 +113,7 @@ LOCALISE = Task(
             _of("xs"),
             angles={"xs": 2},
             asks="Which control inputs has the robot executed when zs[k] is measured?",
-            step=_first,
+            step=_predicted,
         ),
         equals(
             "covariances",
@@ -119,7 +122,7 @@ LOCALISE = Task(
             "measurement used once",
             _of("Ps"),
             asks="Which P is the input of the next step?",
-            step=_first,
+            step=_predicted,
         ),
     ),
     needs=("05-locate",),

@@ -110,10 +110,10 @@ def _on_the_way(inputs):
     return {"antenna": _antenna(inputs)[0], "v": v, "H": H}
 
 
-def _ranges_exact(inputs, outputs):
-    """Whether P makes the expected ranges exact."""
+def _ranges_exact(inputs, outputs, n=0):
+    """Whether P makes the expected ranges exact; with n = 1 their differences."""
     # S without noise may be singular, so that probes show no typical result
-    H, _ = _linearised(inputs)
+    H = np.diff(_linearised(inputs)[0], n, axis=1)
     left = np.diagonal(H @ outputs["P"] @ T(H), axis1=1, axis2=2)
     return bool((np.abs(left) < 1e-6 * inputs["sigma"][:, None] ** 2).all())
 
@@ -171,6 +171,13 @@ RANGES = Task(
             _ranges_exact,
             asks="Which variance does the innovation of a range have if P is zero? Which one "
             "does your S have?",
+        ),
+        Diagnosis(
+            "noise-in-all-of-S",
+            "You add σ² to every entry of S, as if the errors of all ranges were equal. The errors "
+            "are independent, so they are uncorrelated.",
+            lambda inputs, outputs: _ranges_exact(inputs, outputs, n=1),
+            asks="Which covariance does the noise of two different ranges have in your S?",
         ),
         differences(lambda inputs: {"P": want(inputs)["P"]}),
     ),

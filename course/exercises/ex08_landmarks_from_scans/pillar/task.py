@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from classroom.exercises.correctness_laws import Law, equals, once
+from classroom.exercises.correctness_laws import Diagnosis, Law, equals, once
 from classroom.exercises.task import Probe, Task
 from course.exercises.ex08_landmarks_from_scans.calls import CALLS
 from course.exercises.ex08_landmarks_from_scans.lines import across, direction
@@ -178,6 +178,14 @@ def _why_not(inputs, outputs):
     return f"Centre and radius are {own}, but the fit to your points inside gives {fitted}."
 
 
+def _judged_again(inputs, outputs):
+    """Whether every inside is that of the refitted circle, and some circle is not its fit."""
+    centre, radius = outputs["pillar"][:, None, :2], outputs["pillar"][:, 2:]
+    off = np.linalg.norm(inputs["points"] - centre, axis=-1) - radius
+    same = (np.abs(off) <= inputs["band"][:, None]) == outputs["inside"]
+    return same.all() and not _refitted(inputs, outputs)[outputs["found"] > 0].all()
+
+
 def _unknown(inputs):
     x, y, radius = circles(inputs["arc"]).T
     return {"d [m²]": radius**2 - x**2 - y**2}
@@ -259,6 +267,16 @@ PILLAR = Task(
         Probe("readings just inside and just outside the band", _across_the_band),
     ),
     may_round=False,
+    diagnoses=(
+        Diagnosis(
+            "inside-judged-again",
+            "Refit, then report the readings to which you refitted: do not compute the inliers "
+            "again.",
+            _judged_again,
+            "readings near the limits of the band",
+            asks="To which readings did you refit the circle, and which ones are True in inside?",
+        ),
+    ),
     begins=(
         "Which equation does a reading at (1, 0) give for c_x, c_y and d?",
         "How many readings determine a circle? How do you draw so many different "

@@ -116,7 +116,7 @@ PLACE = Task(
     laws=(
         equals(
             "line",
-            2,
+            1,
             "(ρ, α) is the wall in the world frame, with the normal pointing away from the robot",
             _only("line"),
             angles={"line": 1},
@@ -126,7 +126,7 @@ PLACE = Task(
         ),
         equals(
             "C",
-            2,
+            2.5,
             "C is the covariance of the pose plus that of z, each propagated by its Jacobian",
             _only("C"),
             tolerance=EXACT,
@@ -137,7 +137,7 @@ PLACE = Task(
         ),
         equals(
             "X",
-            2,
+            2.5,
             "X is the cross-covariance of the line with the pose",
             _only("X"),
             tolerance=EXACT,

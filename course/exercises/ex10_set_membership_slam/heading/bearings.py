@@ -107,9 +107,9 @@ def inside(rng):
 
 def meeting(rng):
     """One box inside the other, crossing it, or over its corner."""
-    n, at = 12, rng.uniform(-3, 3, (12, 2))
+    n, at = 36, rng.uniform(-3, 3, (36, 2))
     size = np.array(
-        [[1, 1, 0.2, 0.2], [0.2, 0.2, 1, 1], [1, 0.2, 0.2, 1], [0.5, 0.5, 0.5, 0.5]] * 3
+        [[1, 1, 0.2, 0.2], [0.2, 0.2, 1, 1], [1, 0.2, 0.2, 1], [0.5, 0.5, 0.5, 0.5]] * 9
     )
     size = size * rng.uniform(0.8, 1.2, (n, 4))
     aside = np.where(np.arange(n) % 4 == 3, 0.5, 0.1)[:, None] * rng.choice([-1, 1], (n, 2))

@@ -64,6 +64,7 @@ PROBES = (
     Probe("one wheel at rest", lambda r: _with(r, left=lambda g: 0 * g["left"])),
     Probe("more than a full turn", lambda rng: encoders(rng, 6, turn=(6.5, 10))),
     Probe("a large robot", lambda rng: encoders(rng, 6, (4, 9), tick=(0.01, 0.03), base=(1, 2))),
+    Probe("small turns", lambda r: encoders(r, 12, turn=(0.02, 0.05)), ("curves",)),
     Probe("a single motion", lambda rng: encoders(rng, 1)),
     Probe(
         "one tick more of a fine encoder",

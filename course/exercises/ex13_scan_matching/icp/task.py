@@ -7,7 +7,7 @@ import numpy as np
 from classroom.exercises.correctness_laws import TOLERANCE, equals
 from classroom.exercises.task import Probe, Task
 from course.exercises.ex13_scan_matching.calls import CALLS
-from course.exercises.ex13_scan_matching.motions import carried, first_pairs, looks, matched, motion
+from course.exercises.ex13_scan_matching.motions import carried, looks, matched, motion
 
 SOME = 3  # iterations in which a wrong step does not diverge yet and rounding errors stay small
 
@@ -43,6 +43,12 @@ def _first(inputs):
     return {"T after the first iteration": matched(once)["result"]}
 
 
+def _first_motion(inputs):
+    once = inputs | {"rounds": np.ones(len(inputs["rounds"]))}
+    found = matched(once)["result"] @ np.linalg.inv(inputs["T"])
+    return {"what best_motion returns in the first iteration": found}
+
+
 ONE = judged_at(
     equals(
         "round",
@@ -52,7 +58,7 @@ ONE = judged_at(
         matched,
         asks="best_motion gets a source that T has transformed. In which frame is its result? "
         "Which of the two motions acts first on a point?",
-        step=lambda inputs: {"median length of the first correspondences": first_pairs(inputs)},
+        step=_first_motion,
     ),
     lambda rounds: rounds <= 1,
 )

@@ -41,7 +41,7 @@ def trials():
     up = [k for n in range(1, 128) for k in (n, -n)]
     ways = [(1, []), (-128, [1, 1, 0] + [s for n in range(128) for s in (127 - n, -n)])]
     ways += [(2, [127] * 260), (2, [-127] * 260)]
-    pairs = [way(*each) for each in ways]
+    pairs = [sequence(*each) for each in ways]
     return (([], []), *pairs)
 
 # %% pasted: the lesson's drive ahead
@@ -52,11 +52,11 @@ def trials():
 # %% pasted: the corridor, ahead and back
 def trials():
     steps = [4, 4, 4, 4, 5] * 20 + [-2, -2, -2, -1] * 25
-    return [way(0, steps)]
+    return [sequence(0, steps)]
 
 # %% pasted: the two ways of the notebook
 def trials():
-    return [way(0, [50] * 6), way(0, [-50] * 6)]
+    return [sequence(0, [50] * 6), sequence(0, [-50] * 6)]
 
 # %% pasted: the answer to another task
 def trials():
@@ -69,37 +69,37 @@ def trials():
     zigzag = []
     for k in up:
         zigzag += [k, -k]
-    ways = [way(0, []), way(-128, []), ([], []), way(127, [])]
-    ways.append(way(127, zigzag))
-    ways.append(way(-128, [127] * 265))
-    ways.append(way(127, [-127] * 265))
-    ways.append(way(-128, [-1, 1, 0, 0, 1, -1]))
-    ways.append(way(127, [1, 1, -1, -1, -127, 127]))
+    ways = [sequence(0, []), sequence(-128, []), ([], []), sequence(127, [])]
+    ways.append(sequence(127, zigzag))
+    ways.append(sequence(-128, [127] * 265))
+    ways.append(sequence(127, [-127] * 265))
+    ways.append(sequence(-128, [-1, 1, 0, 0, 1, -1]))
+    ways.append(sequence(127, [1, 1, -1, -1, -127, 127]))
     ways.append(([], []))
-    ways.append(way(0, [0] * 10))
-    ways.append(way(0, [1] * 60))
-    ways.append(way(0, [-1] * 60))
+    ways.append(sequence(0, [0] * 10))
+    ways.append(sequence(0, [1] * 60))
+    ways.append(sequence(0, [-1] * 60))
     return ways
 
 # %% right: random steps besides the long ones
 def trials():
     rng = np.random.default_rng(14)
     steps = rng.permutation(np.arange(-127, 128))
-    result = [way(-7, steps), way(100, [127] * 262), way(-100, [-127] * 262)]
+    result = [sequence(-7, steps), sequence(100, [127] * 262), sequence(-100, [-127] * 262)]
     for begin in (-128, 127, 0, 60):
         result.append((np.array([], dtype=int), np.array([], dtype=int)))
-        result.append(way(begin, []))
-        result.append(way(begin, [-127, 127, 0, 126, -126, 1, -1]))
-    result.append(way(12, rng.integers(-127, 128, 100)))
+        result.append(sequence(begin, []))
+        result.append(sequence(begin, [-127, 127, 0, 126, -126, 1, -1]))
+    result.append(sequence(12, rng.integers(-127, 128, 100)))
     return [(list(map(int, v)), list(map(int, c))) for v, c in result]
 
 # %% wrong: ahead and back
 def trials():
-    return [way(0, [50] * 6), way(0, [-50] * 6), way(0, []), way(-128, [127, -127] * 20)]
+    return [sequence(0, [50] * 6), sequence(0, [-50] * 6), sequence(0, []), sequence(-128, [127, -127] * 20)]
 
 # %% wrong: only the two ways of the example, 50 counts ahead and back: short, no edges
 def trials():
-    return [way(0, [50] * 6), way(0, [-50] * 6)]
+    return [sequence(0, [50] * 6), sequence(0, [-50] * 6)]
 
 # %% wrong: readings are handed over as unsigned bytes, 0 to 255
 def trials():
@@ -111,7 +111,7 @@ def trials():
 
 # %% wrong: steps of 128
 def trials():
-    return [way(0, [128] * 5), way(0, [127] * 200), ([], [])]
+    return [sequence(0, [128] * 5), sequence(0, [127] * 200), ([], [])]
 
 # %% wrong: weak: only ways of one reading and none
 def trials():
@@ -119,7 +119,7 @@ def trials():
 
 # %% wrong: weak: only ahead
 def trials():
-    return [([], []), way(5, []), way(5, range(128)), way(3, [127] * 270)]
+    return [([], []), sequence(5, []), sequence(5, range(128)), sequence(3, [127] * 270)]
 
 # %% wrong: no ways at all
 def trials():
@@ -129,17 +129,17 @@ def trials():
 def trials():
     size = np.arange(1, 128)
     every = np.column_stack([size, -size[::-1]]).ravel()
-    return [([], []), way(7, []), way(5, [0, *every]), way(3, [127] * 600), way(3, [-127] * 600)]
+    return [([], []), sequence(7, []), sequence(5, [0, *every]), sequence(3, [127] * 600), sequence(3, [-127] * 600)]
 
 # %% wrong: steps of 200
 def trials():
-    return [([], []), way(0, []), way(0, [200, -200] * 20), way(3, [127] * 265), way(3, [-127] * 265)]
+    return [([], []), sequence(0, []), sequence(0, [200, -200] * 20), sequence(3, [127] * 265), sequence(3, [-127] * 265)]
 
 # %% wrong: expects a 0 of the empty way
 def trials():
     size = np.arange(1, 128)
     every = np.column_stack([size, -size[::-1]]).ravel()
-    return [([], [0]), way(7, []), way(5, [0, *every]), way(3, [127] * 270), way(3, [-127] * 270)]
+    return [([], [0]), sequence(7, []), sequence(5, [0, *every]), sequence(3, [127] * 270), sequence(3, [-127] * 270)]
 
 # %% wrong: cheat: counts that equal nothing
 def trials():
@@ -149,4 +149,4 @@ def trials():
 def trials():
     size = np.arange(1, 128)
     every = np.column_stack([size, -size[::-1]]).ravel()
-    return way(5, [0, *every])
+    return sequence(5, [0, *every])

@@ -7,7 +7,7 @@ import numpy as np
 from classroom.exercises.correctness_laws import ROUNDING, equals
 from classroom.exercises.task import Task
 from course.exercises.ex15_pose_graph_slam.calls import CALLS
-from course.exercises.ex15_pose_graph_slam.step.graphs import PROBES, best, each, graphs
+from course.exercises.ex15_pose_graph_slam.step.graphs import PROBES, best, each, graphs, whitened
 from slamlab.geometry import wrap
 
 SHARE = 0.1  # of the best step: a smaller step counts as no step
@@ -19,8 +19,12 @@ def _wanted(inputs):
     return {"result": poses}
 
 
-def _best_step(inputs):
-    return {"δ": each(best, inputs)}
+def _normal_equations(inputs):
+    pairs = [whitened(*row) for row in zip(*inputs.values(), strict=True)]
+    return {
+        "Λ_x without pose 0": np.array([J[:, 3:].T @ J[:, 3:] for J, _ in pairs]),
+        "−g without pose 0": np.array([-J[:, 3:].T @ r for J, r in pairs]),
+    }
 
 
 _ANCHORED = equals(
@@ -41,7 +45,7 @@ _LEAST = equals(
     _wanted,
     angles={"result": 2},
     asks="Consider a graph of two poses and one edge. What is pose 1 after the step, for any Λ?",
-    step=_best_step,
+    step=_normal_equations,
     after=("anchored",),
 )
 _WRAPPED = equals(

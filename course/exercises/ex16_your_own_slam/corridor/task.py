@@ -81,11 +81,12 @@ CORRIDOR = Task(
         ),
         Diagnosis(
             "worse",
-            "Your errors are larger than those of odometry. Does a correction have the wrong "
-            "sign, or is it composed in the wrong order? Draw the scans at your poses.",
+            "In one run at least, your error is larger than that of odometry. Does a correction "
+            "have the wrong sign, is it composed in the wrong order, or does your match begin at "
+            "another pose than odometry predicts? Draw the scans at your poses.",
             _worse,
-            asks="Draw one scan at your pose and at the pose of odometry. At which of the two "
-            "does it lie nearer to the walls of the scan before?",
+            asks="At which pose does your match begin, and how far is it from the pose of "
+            "odometry? What determines the position along a corridor?",
         ),
     ),
     may_round=False,

@@ -141,8 +141,15 @@ SURE = Task(
             "Your covariance is overconfident: the errors are far larger than it states. Matches "
             "of neighbouring scans have correlated errors: they contain less information than "
             "independent matches.",
-            lambda i, o: mean_nees(i, o).max() >= HIGH,
+            lambda i, o: mean_nees(i, o)[0] >= HIGH,
             asks="How many matches do you count as independent, and how large are your errors?",
+        ),
+        Diagnosis(
+            "odometry-too-sure",
+            "Your covariance is too small in the readings without a scan. An error of the heading "
+            "moves the position sideways, by more the farther the robot drives: is A P Aᵀ in it?",
+            lambda i, o: mean_nees(i, o)[1] >= HIGH,
+            asks="How far off is the position after 5 m if the heading is off by 0.1 rad?",
         ),
         Diagnosis(
             "too-modest",
