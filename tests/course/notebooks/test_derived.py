@@ -171,7 +171,18 @@ def test_stored_outputs_hold_no_warning_no_live_widget_and_no_path_of_a_machine(
             assert "application/vnd.jupyter.widget-view+json" not in mimes, cell.id
             for text in texts(output):
                 assert not re.search(r"(^|[\s\"'(=])(/(home|root|work|tmp|Users)/|[A-Z]:\\)", text)
-                assert "is not saved" not in text, "python -m course.build --force NN"
+
+
+@pytest.mark.parametrize("id", catalogue.EXERCISES)
+def test_a_stored_solution_reports_each_law_of_today_as_satisfied(id):
+    exercise = catalogue.exercise(id)
+    cells = code_cells(load(ROOT / "solutions" / exercise.file))
+    shown = "".join(text for cell in cells for output in cell.outputs for text in texts(output))
+    shown = " ".join(shown.split())
+    again = f"python -m course.build --force {id}"
+    assert "✗" not in shown and "is not saved" not in shown, again
+    for law in (law for task in exercise.tasks for law in task.laws):
+        assert f"✓ {law.says} (" in shown, (again, law.says)
 
 
 @each_notebook
