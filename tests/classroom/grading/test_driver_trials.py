@@ -12,19 +12,19 @@ from course.task_programs import programs
 TRIALS = next(one for one in programs("14") if one.task.id == "14-trials")
 WEAK = {  # the name of the diagnosis that belongs to some ways
     "none": "",
-    "too much": "way(1, [127] * 999), way(1, [])",
+    "too much": "sequence(1, [127] * 999), sequence(1, [])",
     "no byte": "([0, 200], [0, 200])",
-    "half a round": "way(0, [128])",
+    "half a round": "sequence(0, [128])",
     "wrong counts": "([0, 5], [0, -5])",
-    "no overflow": "way(1, [3] * 30)",
-    "one direction": "way(1, [50] * 30)",
-    "slow": "way(1, [50] * 30 + [-50] * 30)",
-    "one sequence": "way(0, [127] * 30 + [-127] * 30)",
-    "always from 0": "way(0, [127] * 30 + [-127] * 30), way(0, [])",
-    "one way": "way(1, [127] * 30 + [-127] * 30), way(1, [])",
-    "no shortest way": "*[way(1, [127] * 30 + [-127] * 30)] * 2",
-    "never far": "*[way(1, [127] * 30 + [-127] * 30)] * 2, way(1, []), ([], [])",
-    "not everything": "way(1, [127] * 260), way(1, [-127] * 260), way(1, []), ([], [])",
+    "no overflow": "sequence(1, [3] * 30)",
+    "one direction": "sequence(1, [50] * 30)",
+    "slow": "sequence(1, [50] * 30 + [-50] * 30)",
+    "one sequence": "sequence(0, [127] * 30 + [-127] * 30)",
+    "always from 0": "sequence(0, [127] * 30 + [-127] * 30), sequence(0, [])",
+    "one way": "sequence(1, [127] * 30 + [-127] * 30), sequence(1, [])",
+    "no shortest way": "*[sequence(1, [127] * 30 + [-127] * 30)] * 2",
+    "never far": "*[sequence(1, [127] * 30 + [-127] * 30)] * 2, sequence(1, []), ([], [])",
+    "not everything": "*[sequence(1, [c] * 260) for c in (127, -127)], sequence(1, []), ([], [])",
 }
 
 
