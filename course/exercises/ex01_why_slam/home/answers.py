@@ -1,35 +1,3 @@
-# %% way: least squares, error by error
-def home(start, steps, docked):
-    n = len(steps)
-    W = np.concatenate([np.full(n, 0.01**2), np.full(n, 0.015**2), [0.08**2]])
-    x = np.zeros(2 * n + 1)
-    x[-1] = abs(np.sum(steps[: docked[0], 2])) / (2 * np.pi) - 1
-
-    def told_by(x):
-        mended = steps.copy()
-        mended[:, 2] = (steps[:, 2] - x[:n]) / (1 + x[-1])
-        mended[:, 0] = steps[:, 0] / (1 + x[n:-1])
-        return mended
-
-    for _ in range(4):
-        mended = told_by(x)
-        poses = track(start, mended)
-        A, gaps = [], []
-        for k in docked:
-            rest = poses[k, :2] - poses[1 : k + 1, :2]
-            J = np.zeros((3, 2 * n + 1))
-            lever = np.array([-rest[:, 1], rest[:, 0], np.ones(k)])
-            J[:, :k] = -lever / (1 + x[-1])
-            J[:2, n : n + k] = -np.diff(poses[: k + 1, :2], axis=0).T
-            J[:, -1] = -(lever @ mended[:k, 2]) / (1 + x[-1])
-            gap = poses[k] - start
-            gap[2] = (gap[2] + np.pi) % (2 * np.pi) - np.pi
-            A.append(J)
-            gaps.append(gap)
-        A, gap = np.vstack(A), np.concatenate(gaps)
-        x = W * (A.T @ np.linalg.solve(A * W @ A.T, A @ x - gap))
-    return track(start, told_by(x))
-
 # %% way: the factor that closes the laps best
 def home(start, steps, docked):
     bounds = [0, *docked]

@@ -118,43 +118,6 @@ def wary_filter(x, P, us, zs, F, Q, H, R):
         Ps.append(cov)
     return np.array(xs), np.array(Ps)
 
-# %% right: all yes/no histories of the last five readings, older ones merged
-def wary_filter(x, P, us, zs, F, Q, H, R):
-    DEPTH = 5
-
-    def merge(group):
-        w = np.array([g[0] for g in group])
-        total = w.sum()
-        if total == 0:
-            w, total = np.full(len(group), 1e-300), 1e-300 * len(group)
-        m = sum(a * g[1] for a, g in zip(w, group)) / total
-        C = sum(a * (g[2] + np.outer(g[1] - m, g[1] - m)) for a, g in zip(w, group)) / total
-        return total, m, C
-
-    beliefs = {(): (1.0, x, P)}
-    xs, Ps = [], []
-    for u, z in zip(us, zs):
-        groups = {}
-        for history, (w, m, C) in beliefs.items():
-            m, C = predict(m, C, F, Q)
-            m = m + u
-            v, S = innovation(m, C, z, H, R)
-            s = S.item()
-            density = np.exp(-(v.item() ** 2) / (2 * s)) / np.sqrt(2 * np.pi * s)
-            seen = update(m, C, z, H, R)
-            for real, case in (
-                (True, (w * (1 - GHOSTS) * density, *seen)),
-                (False, (w * GHOSTS / REACH, m, C)),
-            ):
-                groups.setdefault((history + (real,))[-DEPTH:], []).append(case)
-        merged = {key: merge(group) for key, group in groups.items()}
-        total = sum(b[0] for b in merged.values())
-        beliefs = {key: (b[0] / total, b[1], b[2]) for key, b in merged.items()}
-        _, m, C = merge(list(beliefs.values()))
-        xs.append(m)
-        Ps.append(C)
-    return np.array(xs), np.array(Ps)
-
 # %% right: probabilistic data association, in words of log odds
 def wary_filter(x, P, us, zs, F, Q, H, R):
     n = len(zs)

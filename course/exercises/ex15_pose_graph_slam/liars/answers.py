@@ -50,57 +50,6 @@ def close_loops(poses, edges, loops):
             seen |= set(best[1])
     return settled([*edges, *(loops[k] for k in best[1])], poses)
 
-# %% way: the largest crowd of pairs that agree
-def close_loops(poses, edges, loops):
-    n = len(poses)
-
-    def linear(some, at):
-        J, e = np.zeros((len(some), 3, n, 3)), np.zeros((len(some), 3))
-        for k, (i, j, z, information) in enumerate(some):
-            U = np.linalg.cholesky(information).T
-            A, B = jacobians(at[i], at[j], z)
-            J[k, :, i], J[k, :, j], e[k] = U @ A, U @ B, U @ error(at[i], at[j], z)
-        return J.reshape(-1, 3 * n)[:, 3:], e.ravel()
-
-    def settled(some, at, rounds=3):
-        at = at.copy()
-        for _ in range(rounds):
-            J, e = linear(some, at)
-            at[1:] -= np.linalg.solve(J.T @ J, J.T @ e).reshape(-1, 3)
-            at[:, 2] = wrap(at[:, 2])
-        return at
-
-    def loops_at(at):
-        """What the wheels expect of all loops together, near some poses: v, and its covariance."""
-        J, e = linear(edges, at)
-        P = np.linalg.inv(J.T @ J)
-        K, v = linear(loops, at)
-        return v - K @ (P @ (J.T @ e)), K @ P @ K.T + np.eye(len(v))
-
-    def cost(some, v, S):
-        """χ² of some loops together."""
-        at = np.ravel([[3 * k, 3 * k + 1, 3 * k + 2] for k in some])
-        return v[at] @ np.linalg.solve(S[np.ix_(at, at)], v[at])
-
-    found = poses
-    for _ in range(2):
-        v, S = loops_at(found)
-        m = len(loops)
-        agree = np.zeros((m, m), dtype=bool)
-        for a in range(m):
-            for b in range(a + 1):
-                agree[a, b] = agree[b, a] = cost([a, b] if a != b else [a], v, S) < 30
-        crowds = []
-        for first in np.flatnonzero(np.diag(agree)):
-            crowd = [first]
-            for k in sorted(np.flatnonzero(agree[first]), key=lambda k: cost([first, k], v, S) if k != first else 0):
-                if k not in crowd and agree[k, crowd].all() and cost([*crowd, k], v, S) < 16 * (len(crowd) + 1):
-                    crowd.append(k)
-            crowds.append(crowd)
-        crowd = max(crowds, key=lambda c: 16 * len(c) - cost(c, v, S), default=[])
-        found = settled([*edges, *(loops[k] for k in crowd)], found)
-    return found
-
 # %% way: each loop trusted once, then voted on
 def close_loops(poses, edges, loops):
     n = len(poses)
