@@ -21,7 +21,7 @@ from course.source import ROOT
 from slamlab.parallel import THREAD_VARIABLES
 
 MOVES = ("views.explore(", "live.watch(")
-VERSION = 1  # of the renderings; a new version renders all again
+VERSION = 2  # of the renderings; a new version renders all again
 RESULTS = "rendered.json"  # renderings by the cell's id
 
 

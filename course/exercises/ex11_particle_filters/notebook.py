@@ -90,9 +90,10 @@ ask(
 # %% [markdown]
 # **Your task.** Return the drawn rows as indices from 0 to $n - 1$, in any order. Weights may be
 # zero. Their sum is one except for rounding, so the last segment may end slightly below one, and
-# a position may lie beyond it. Such a position must select the last particle. (`np.cumsum` gives the
-# ends of the segments, and `np.searchsorted` finds the segment of a position.) The number of copies of particle $i$ must be $n w_i$, rounded up or down, for every
-# seed, and $n w_i$ on average over many seeds. The same seed must give the same indices.
+# a position may lie beyond it. Such a position must select the last particle. (`np.cumsum` gives
+# the ends of the segments, and `np.searchsorted` finds the segment of a position.) The number of
+# copies of particle $i$ must be $n w_i$, rounded up or down, for every seed, and $n w_i$ on average
+# over many seeds. The same seed must give the same indices.
 
 
 # %%
