@@ -34,9 +34,9 @@ SMALL = {  # what is set to run in seconds, and what the rows must compare: (nam
     "false_loops": (
         {"GRAPHS": ("CSAIL",)},
         {
-            ("CSAIL, random false loops: solved: slamlab", "GTSAM's GNC"),
-            ("CSAIL, locally grouped false loops: slamlab", "GTSAM's GNC"),
-            ("CSAIL, grouped false loops: ambiguous of the solved", "2 %"),
+            ("CSAIL, random false loops (sets: 1): solved: slamlab", "GTSAM's GNC"),
+            ("CSAIL, locally grouped false loops (sets: 1): slamlab", "GTSAM's GNC"),
+            ("CSAIL, grouped false loops (sets: 1): ambiguous of the solved", "2 %"),
         },
     ),
     "devices": (
