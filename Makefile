@@ -33,7 +33,7 @@ test-all: test  ## Also the long tests: every notebook in a real browser, the si
 
 soak: env  ## Run the tests that take minutes on an otherwise idle machine
 	$(RUN) pytest -m soak
-	SLAMLAB_SLIP_SEEDS=100 $(RUN) pytest -n 2 tests/classroom/grading/test_mistakes.py
+	SLAMLAB_SLIP_SEEDS=10 $(RUN) pytest -n 2 tests/classroom/grading/test_mistakes.py
 
 env:
 	@$(PYTHON) lab.py --venv $(ENV) --lock requirements-test.lock --install-only
