@@ -29,13 +29,20 @@ def with_links(source, last):
             ("on to lesson ", following, "../notebooks/"),
         )
         return [*cells, Cell("markdown", line, "ways", cells[-1].line, {})] if line else cells
-    line = _line(("Exercise ", exercise, "../exercises/"), ("on to lesson ", following, ""))
     texts = [
         k for k, c in enumerate(main_line(cells)) if c.type == "markdown" and c.slide != "notes"
     ]
     place = texts[-1]
+    links = ("Exercise ", exercise, "../exercises/"), ("On to lesson ", following, "")
+    line = _line(*(link for link in links if not _names(cells[place], link)))
     cells[place] = _longer(cells[place], line)
     return cells
+
+
+def _names(cell, link):
+    """Whether a text contains a link already."""
+    _, path, folder = link
+    return path is not None and f"]({folder}{file_name(path)})" in cell.text
 
 
 def _neighbours(path):

@@ -1012,9 +1012,9 @@ print(f"{recording.seconds:.0f} s, {received} pieces received, {len(whole)} revo
 #
 # ```
 # slamlab emulate --world room                   # two ports, until Ctrl-C
-# slamlab record devices:LIDAR,EMIR --out my.rec # every byte; type V,OMEGA to drive
-# slamlab replay my.rec                          # the recorded devices, at two ports
-# slamlab run my.rec                             # or map the recording directly
+# slamlab record devices:LIDAR,EMIR --out my.rec # type V,OMEGA to drive
+# slamlab replay my.rec                          # the devices, at two ports
+# slamlab run my.rec                             # or map it directly
 # ```
 #
 # (The two ports of `emulate` and `replay` are **pseudo-terminals**: programs use them like serial

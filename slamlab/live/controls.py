@@ -53,13 +53,14 @@ class Controls:
             layout={"width": "25em", "max_width": "100%"},
             style={"description_width": "initial"},
         )
-        self.answer = ipywidgets.Label()
+        self.answer = ipywidgets.Label()  # until the next line or button
+        for button in (*self.source_buttons, self.run, self.step, self.reset, *self.drive):
+            button.on_click(lambda _: self.answer.set_trait("value", ""))
         self.typed.observe(self._submit_line, "value")
         rows = ([*self.drive, *hint], [self.typed, self.answer])
         self._drive_box = ipywidgets.VBox([ipywidgets.HBox(row, layout=_WRAPPED) for row in rows])
-        source_row = ipywidgets.HBox(
-            self.source_buttons, layout=_WRAPPED if len(runs) > 1 else _GONE
-        )
+        shown = _WRAPPED if len(runs) > 1 else {"display": "none"}
+        source_row = ipywidgets.HBox(self.source_buttons, layout=shown)
         run_row = [self.run, self.step, self.reset, self.speed, self.seed]
         run_row = ipywidgets.HBox(run_row, layout=_WRAPPED)
         self.widget = ipywidgets.VBox([source_row, run_row, self._drive_box])
@@ -100,7 +101,6 @@ class Controls:
 
 
 _WRAPPED = {"flex_flow": "row wrap", "align_items": "center"}
-_GONE = {"display": "none"}
 
 
 def _button(text, tooltip, pressed, width="auto"):

@@ -24,6 +24,16 @@ MONKEYS = [
     pytest.param("16_your_own_slam.ipynb", 16, marks=pytest.mark.walk),
 ]
 
+# a text on the second slide grows after the slide was laid out in advance
+LAID_OUT_AHEAD = "() => jupyterapp.shell.currentWidget.slamlabDeck.layouts.has(1)"
+GROW = """() => {
+    const { notebook, slides } = jupyterapp.shell.currentWidget.slamlabDeck;
+    const { node } = notebook.widgets[slides[1].cells[0]];
+    const block = document.createElement("p");
+    block.style.height = "420px";
+    node.querySelector(".jp-RenderedMarkdown").append(block);
+}"""
+
 
 @pytest.fixture
 def lecture(visit):
@@ -150,6 +160,15 @@ def test_remotes_and_the_keys_of_the_deck(lecture):
         assert lecture.page.locator(f".slamlab-{part}").is_hidden() != hidden
     lecture.press("Escape")
     assert not lecture.runs
+
+
+def test_a_slide_that_was_laid_out_before_its_formulas_is_whole(lecture):
+    lecture.visit.open("07_correlations.ipynb")
+    lecture.start()
+    lecture.page.wait_for_function(LAID_OUT_AHEAD)
+    lecture.page.evaluate(GROW)
+    lecture.go_on_to("the second slide", lambda: lecture.number.startswith("2 /"))
+    assert not lecture.seen["cut"] and lecture.seen["shrink"] < 1
 
 
 def test_a_lecture_starts_by_its_address(lecture):

@@ -177,6 +177,8 @@ async def test_a_refused_command_is_reported_beside_the_input(source, message):
     controls.typed.value = "1, 2" if source is Walk else "go on"
     assert message in controls.answer.value
     assert loop.running
+    controls.drive[-1].click()  # stop
+    assert controls.answer.value == ""
     loop.close()
 
 

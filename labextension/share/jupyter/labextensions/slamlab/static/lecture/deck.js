@@ -5,7 +5,7 @@ import { guard } from "./input_guard.js";
 import { Health } from "./health.js";
 import { Bar } from "./status_bar.js";
 import { keysOf } from "./keys.js";
-import { cellsOn, layOut, pagesOf, textBeside, zoomOf } from "./fit.js";
+import { cellsOn, fits, layOut, pagesOf, textBeside, zoomOf } from "./fit.js";
 import { goToCell } from "./active_cell.js";
 import { foldCode, giveFoldingBack, lockCode, takeFolding } from "./code.js";
 import { Signal } from "./signal.js";
@@ -118,6 +118,8 @@ export class Deck {
     this.signature = this.#signature();
     Object.assign(this.layer.dataset, { stop: this.at, stops: this.stops.length, shrink: this.shown.shrink });
     this.target = this.stops[this.at];
+    // formulas may have been typeset since the slide was laid out in advance
+    if (!this.refreshing && !fits(this.page)) return this.refresh(false);
     this.changed.emit(this);
     this.#prepare();
   }
@@ -134,7 +136,9 @@ export class Deck {
     this.gather();
     this.at = this.#first(target.slide);
     this.#pages(target.slide);
+    this.refreshing = true;
     this.go(Math.max(this.#first(target.slide), this.#reached(target)));
+    this.refreshing = false;
     this.target = target;
   }
 

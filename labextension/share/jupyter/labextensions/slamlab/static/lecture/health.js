@@ -88,7 +88,8 @@ export class Health {
 
   #look() {
     const kernel = this.session.session?.kernel;
-    const status = STARTING.includes(kernel?.status) ? "starting" : kernel?.status === "dead" ? "dead" : this.#results;
+    const awaited = this.#results === "died" && kernel?.status === "unknown"; // until the server has started it again
+    const status = awaited || STARTING.includes(kernel?.status) ? "starting" : kernel?.status === "dead" ? "dead" : this.#results;
     const trouble = this.lost ? "lost" : kernel ? status : "none";
     if (trouble === this.trouble) return;
     this.trouble = trouble;

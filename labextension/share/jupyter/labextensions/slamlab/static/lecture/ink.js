@@ -50,7 +50,7 @@ class Ink {
   // Select a tool, or none: then the bar closes and controls get pointer events again.
   use(tool) {
     this.tool = tool;
-    if (tool && !this.bar.node.isConnected) this.deck.layer.append(this.bar.node);
+    if (tool && !this.bar.node.isConnected) this.deck.bar.node.prepend(this.bar.node);
     if (!tool) this.bar.node.remove();
     if (tool !== "laser") this.laser.hide();
     this.surface.dataset.tool = tool ?? "";
