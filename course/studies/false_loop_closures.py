@@ -157,10 +157,11 @@ class TwinRooms:
         return float(np.mean(shares))
 
     def select_loops(self, false_loops=None):
-        """Return the indices (k,) of all true loops and of evenly spaced false loops."""
+        """Return the indices (k,) of all true loops and of evenly spaced false loops, of which the
+        last one comes first."""
         true, false = np.flatnonzero(~self.false), np.flatnonzero(self.false)
         count = len(false) if false_loops is None else false_loops
-        return np.concatenate([true, false[np.linspace(0, len(false) - 1, count).astype(int)]])
+        return np.concatenate([true, false[np.linspace(len(false) - 1, 0, count).astype(int)]])
 
     def graph(self, loops, robust=True):
         """Return the odometry graph with some loops, not optimised."""
