@@ -188,7 +188,7 @@ def _texts(one, names):
     """Return the texts of a table: hints and questions of the mistakes, and of the quantities with
     these names."""
     hits = [tuple(filter(None, name.split(quantities.SEPARATOR))) for name in names]
-    visible = visible_names(one.exercise.id)
+    visible = visible_names(one.task.id)
     texts = {
         "hints": [mistake.hint for mistake in one.mistakes],
         "asks": [_question(one, mistake) for mistake in one.mistakes],
@@ -210,7 +210,7 @@ def asked_about(one, mistake) -> tuple[str, str]:
     the description of this quantity, or ""."""
     hit = hit_by(one, mistake.programs[0])
     asks = mistake.asks or quantity_texts.question(hit, one.file.questions)
-    return asks, quantity_texts.place(hit, visible_names(one.exercise.id))
+    return asks, quantity_texts.place(hit, visible_names(one.task.id))
 
 
 def _question(one, mistake):

@@ -157,9 +157,13 @@ def namespace(exercise_id, source="") -> dict:
 
 
 @functools.cache
-def visible_names(exercise_id):
-    """Return the names that a student sees in an exercise."""
-    return quantity_texts.visible_names(read(numbered(exercise_id, "exercises")).cells)
+def visible_names(task_id):
+    """Return the names that a student sees in the section of a task."""
+    cells = read(numbered(task_id[:2], "exercises")).cells
+    checks = [k for k, cell in enumerate(cells) if cell.check]
+    end = next((k for k in checks if cells[k].check == task_id), len(cells))
+    begin = max((k for k in checks if k < end), default=0)
+    return quantity_texts.visible_names(cells[begin:end])
 
 
 @functools.cache

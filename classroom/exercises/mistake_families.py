@@ -1,31 +1,31 @@
 """Families of small mistakes without a specific name (mutation operators), and their hints."""
 
 MISTAKE_FAMILIES = {
-    "sign": "A sign is wrong: with one + in place of a −, or one − in place of a +, a correct "
+    "sign": "With one + in place of a −, or one − in place of a +, a correct solution gives "
+    "exactly your numbers.",
+    "factor": "With one constant larger or smaller, or with a sum in place of a mean, a correct "
     "solution gives exactly your numbers.",
-    "factor": "A factor is wrong: with one constant larger or smaller, or with a sum in place of "
-    "a mean, a correct solution gives exactly your numbers.",
-    "square": "A square or a square root is missing, or there is one too many. Variances are σ², "
-    "and C, R and P contain variances.",
-    "transpose": "One matrix is transposed, or a transpose is missing. The shape of a square "
-    "matrix does not reveal this.",
-    "order": "Two things are in the wrong order: two factors of a product, the two sides of a "
-    "difference, or the arguments of a function.",
-    "trigonometry": "A sine is used in place of a cosine or vice versa, or a function is used in "
-    "place of its inverse.",
+    "square": "Without a square or a square root, or with one too many, a correct solution gives "
+    "exactly your numbers. Variances are σ², and C, R and P contain variances.",
+    "transpose": "With one matrix transposed, or without a transpose, a correct solution gives "
+    "exactly your numbers. The shape of a square matrix does not reveal this.",
+    "order": "With two factors, the sides of a difference or two arguments exchanged, a correct "
+    "solution gives exactly your numbers.",
+    "trigonometry": "With a sine in place of a cosine or vice versa, or a function in place of "
+    "its inverse, a correct solution gives exactly your numbers.",
     "degrees": "Degrees and radians are mixed: NumPy's functions take and return radians.",
     "wrap": "An angle is not wrapped where it should be: 179° and −179° differ by 2°.",
     "axis": "A sum, mean or stack is taken along the wrong axis, or along all axes.",
-    "stale": "A line uses a value from before a change, or from after it: two lines are in the "
-    "wrong order, or one has no effect.",
-    "missing": "Something is missing: one term of a sum, one factor of a product, or one line.",
-    "guard": "A condition is wrong for some inputs: check <, ≤, and, or, not, and the case in "
-    "which both sides are equal.",
-    "index": "An integer is off by one: an index, a bound, or an entry of a matrix.",
-    "inverse": "Something is inverted: a matrix is used in place of its inverse, or a fraction is "
-    "upside down.",
-    "name": "One variable is used in place of another: check what each line reads and assigns.",
-    "twice": "Something is done twice: there is one line or one factor too many.",
+    "stale": "If one line uses a value from before a change, or from after it, a correct solution "
+    "gives exactly your numbers.",
+    "missing": "Without one term, factor or line, a correct solution gives exactly your numbers.",
+    "guard": "With a wrong condition (<, ≤, and, or, not, both sides equal), a correct solution "
+    "gives exactly your numbers.",
+    "index": "With an integer off by one, a correct solution gives exactly your numbers.",
+    "inverse": "With a matrix in place of its inverse, or a fraction upside down, a correct "
+    "solution gives exactly your numbers.",
+    "name": "With one variable in place of another, a correct solution gives exactly your numbers.",
+    "twice": "With one line or one factor too many, a correct solution gives exactly your numbers.",
 }
 """Hints by the name of their family; ``course.mutation_operators`` makes the changes."""
 

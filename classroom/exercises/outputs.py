@@ -73,7 +73,7 @@ def _malformed(function, shapes, inputs, outputs):
             return wrong_shape_message(what, got, want)
         longest = max((g for g, w in zip(got, want, strict=True) if w is None), default=0)
         if longest > MAX_ROWS:
-            return f"{what} returned {longest} entries: at most {MAX_ROWS} are allowed"
+            return f"{what} returned {longest} entries: no correct answer has more than {MAX_ROWS}"
         if not np.isfinite(outputs[name]).all():
             return f"{what} returned NaN or infinity"
         if outputs[name].size and np.abs(outputs[name].astype(float)).max() > MAX_MAGNITUDE:

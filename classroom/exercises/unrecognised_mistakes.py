@@ -14,6 +14,7 @@ from classroom.exercises.outputs import all_checked_outputs
 from classroom.exercises.verdict_text import name_probes
 
 FEW = 3  # fewer numbers may match a pattern by chance
+SURE = 100  # sets of rows for each compared entry: its signs match the wrong rows by chance in 2 %
 NEAR = 0.03  # largest error of a "near" answer, relative to the largest expected number
 SAME = 1e-6  # relative difference of equal numbers that two methods compute
 
@@ -136,18 +137,17 @@ def _compared(pairs):
 
 def _one_side(laws, sets):
     """Return the name and text of the pattern if an input's sign identifies the wrong rows."""
+    arrays = {name: a for name, a in sets[MAIN].items() if name[0] != "_" and a.ndim <= 2}
+    entries = [(name, at) for name, a in arrays.items() for at in np.ndindex(a.shape[1:])]
     for rows in (broken[MAIN] for broken in laws.values() if MAIN in broken):
-        if not FEW <= rows.sum() <= rows.size - FEW:
+        if not FEW <= rows.sum() <= rows.size - FEW or 2.0**rows.size < SURE * len(entries):
             continue
-        for name, array in sets[MAIN].items():
-            if name.startswith("_") or len(array) != rows.size or array.ndim > 2:
-                continue
-            for at in np.ndindex(array.shape[1:]):
-                column = array[(slice(None), *at)]
-                for sign, side in (("negative", column < 0), ("positive", column > 0)):
-                    if np.array_equal(side, rows):
-                        entry = f"{name}[{', '.join(map(str, at))}]" if at else name
-                        return "one side", ONE_SIDE.format(entry, sign)
+        for name, at in entries:
+            column = arrays[name][(slice(None), *at)]
+            for sign, side in (("negative", column < 0), ("positive", column > 0)):
+                if np.array_equal(side, rows):
+                    entry = f"{name}[{', '.join(map(str, at))}]" if at else name
+                    return "one side", ONE_SIDE.format(entry, sign)
     return None
 
 

@@ -34,11 +34,11 @@ from slamlab import layers, views
 # wall. What are $r$ and $\tau$ of (02.1) in each case?
 #
 # **Your task.** Return the range at which the beam meets the wall, in metres. Return `np.inf` if
-# the beam does not meet the wall, because the wall lies behind the sensor, the beam passes beside
-# the wall, or the two are parallel. The check accepts an error of 1 µm. A wall may be a few
-# centimetres or a hundred metres long. The direction $\varphi$ may be any number, also beyond a
-# whole turn. Beams and walls may be parallel to the x or y axis. A wall on the line of the beam is
-# also parallel. The point $p$ never lies on a wall, and no beam meets the end of a wall exactly.
+# the beam does not meet the wall, because the wall lies behind the sensor, the beam passes beside the wall, or the two
+# are parallel. The check accepts an error of 1 µm. A wall may be a few centimetres or a hundred metres long. The
+# direction $\varphi$ may be any number, also beyond a whole turn. Beams and walls may be parallel to the x or y axis.
+# For $\varphi = 0$ a wall on the line of the beam is also parallel. In other directions rounding would decide, so there
+# is no such wall. The point $p$ never lies on a wall, and no beam meets the end of a wall exactly.
 
 
 # %% name="ray-wall"
@@ -122,14 +122,14 @@ def _():
 # come?
 #
 # **Your task.** Return the distance in metres from $p$ to the nearest point of all walls that lies
-# in the cone. Return `np.inf` if no such point exists. Every point of a wall returns an echo, at
-# any angle of incidence. The check accepts an error of 1 µm. `half` lies between 1° and 80°, and
-# $\varphi$ may be any number. There may be many walls, or no wall (then `walls` has the shape (0,
-# 4)). Walls may be parallel to the x or y axis, point at the sensor, cross the whole cone, extend
-# behind the sensor, or be as short as the width of a post. Each wall has a length above zero and is
-# at least 10 cm from $p$. You need not decide whether a point on the edge of the cone belongs to
-# the cone: the ends of a wall are at least 0.01 rad from both edges, and so is the foot of the
-# perpendicular from $p$ if it lies on the wall.
+# in the cone. Return `np.inf` if no such point exists. Every point of a wall returns an echo, at any angle of
+# incidence. The check accepts an error of 1 µm. `half` lies between 1° and 80°, and $\varphi$ may be any number. There
+# may be many walls, or no wall (then `walls` has the shape (0, 4)). Walls may be parallel to the x or y axis, point at
+# the sensor, cross the whole cone, extend behind the sensor, or be as short as the width of a post. Each wall has a
+# length above zero and is at least 10 cm from $p$. You need not decide whether a point on the edge of the cone belongs
+# to the cone: the ends of a wall are at least 0.01 rad from both edges, and so is the foot of the perpendicular from
+# $p$ if it lies on the wall. Nearest points between the ends of a wall earn 1 point, ends 1.5, and nearest points on
+# the edge of the cone 2, if those between the ends are right, too.
 
 
 # %% name="echo"
@@ -217,8 +217,8 @@ ask(
 # %% [markdown]
 # **Your task.** Return noisy readings (n,) in metres of true ranges. Draw all random numbers from
 # the generator `rng`, so that the same seed gives the same result. If a range is NaN, the reading
-# must be NaN. A scan may have any number of beams, also zero. `error` may be 0, and `dropouts` may
-# be any number from 0 to 1, both included. The check judges thousands of readings:
+# must be NaN. A scan may have any number of beams, also zero. `error` may be 0 to 0.25, and
+# `dropouts` may be any number from 0 to 1, both included. The check judges thousands of readings:
 #
 # - the mean and the standard deviation of their relative errors (reading divided by range, minus
 #   1), separately for near and for far walls;
@@ -282,11 +282,10 @@ ask(
 
 # %% [markdown]
 # **Your task.** Return the natural logarithm of the likelihood of a scan, whose beams are independent.
-# Its error must be at most $10^{-6}$ of the result. A weight may be 0. Return `-np.inf` if a reading is
-# impossible, such as NaN where the weight of no return is 0. A scan may have thousands of beams, or
-# none, and a reading may be so far from the wall that its density is zero as a float. No reading
-# equals 0, `range_max` or its expected range, and all walls are nearer than `range_max`. `error` is at
-# most 0.5.
+# Its error must be at most $10^{-6}$ of the result. A weight may be 0. Return `-np.inf` if a reading is impossible,
+# such as NaN where the weight of no return is 0. A scan may have thousands of beams, or none, and a reading may be so
+# far from the wall that its density is zero as a float. All readings and all walls are between 0 and `range_max`, and
+# no reading equals its expected range. `error` is at most 0.5.
 #
 # | law | what must be right | points |
 # | --- | --- | --- |

@@ -35,18 +35,16 @@ from slamlab.models import f_odometry, g, h
 # %%
 ask(
     "ex04-left",
-    "The robot stands at the origin with the heading 0, and a landmark is 2 m ahead of it. Now the "
-    "robot moves 1 cm to its left. **How do range and bearing change, to first order?** (Which "
-    "entry of $H_{\\mathrm r}$ describes this?)",
+    "A landmark is 2 m to the left of the robot, at the bearing +90°. The robot drives 1 cm straight "
+    "ahead. **By which turn on the spot does it get the bearing +90° again, to first order?** (Which "
+    "two entries of $H_{\\mathrm r}$ describe this?)",
     {
-        "the range grows, the bearing stays 0": "the range grows by only 25 µm, which is an effect "
-        "of second order. But the landmark is no longer straight ahead.",
-        "the range stays, the bearing becomes positive": "bearings are positive to the left. Is "
-        "the landmark now to the left or to the right of the heading?",
-        "the range stays, the bearing becomes negative": "the landmark is now to the right of the heading, at a bearing of −0.01 m / 2 m = −0.005 rad.",
-        "neither changes: the robot moves across the line of sight": "such a motion does not change the range to first order, but it changes the bearing.",
+        "0.005 rad to the left": "the bearing has grown by 0.01 m / 2 m, because the landmark has fallen behind. A turn to the left reduces all bearings by its angle.",
+        "0.005 rad to the right": "the landmark is now behind +90°. Does a turn to the right bring it forward?",
+        "0.01 rad to the left": "the sign is right, but the same motion changes the bearing of a far landmark less.",
+        "none: the robot moves across the line of sight": "such a motion does not change the range to first order, but it changes the bearing.",
     },
-    right="the range stays, the bearing becomes negative",
+    right="0.005 rad to the left",
 )
 
 # %% [markdown]

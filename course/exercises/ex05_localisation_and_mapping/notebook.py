@@ -351,13 +351,12 @@ ask(
 
 # %% [markdown]
 # **Your task.** Return the belief after one update with all $m$ ranges. All ranges are measured at
-# the same time, so compute all rows of $H$ at the given pose. If `m` is 0, the belief does not
-# change. `m` may be larger than 3, and a beacon may occur twice. A beacon may be at the position of
-# the robot, or a few centimetres from the antenna, but never at the antenna itself. Use every
-# range, even if it contradicts the others or the prior. The check compares your result with the
-# least squares estimate from prior and ranges. It allows errors of $10^{-6}$ of the correction of
-# the pose and of $10^{-8}$ of the largest entry of $P$. It also uses the coordinates of surveyors,
-# up to $10^7$ m, where finite differences have larger errors: derive $H$.
+# the same time, so compute all rows of $H$ at the given pose. If `m` is 0, the belief does not change. `m` may be
+# larger than 3, and a beacon may occur twice. A beacon may be at the position of the robot, or a few centimetres from
+# the antenna, but never at the antenna itself. Use every range, even if it contradicts the others or the prior. The
+# check compares your result with the least squares estimate from prior and ranges. It allows errors of $10^{-6}$ of the
+# correction of the pose and of $10^{-8}$ of the largest entry of $P$. It also uses the coordinates of surveyors, up to
+# $10^7$ m, where differences of $h$ have larger errors: derive $H$.
 
 
 # %%

@@ -24,10 +24,11 @@ def whole(inputs, outputs):
 
 class Ends:
     """The ends of runs among landmarks of a ``kind``; ``sure`` is (low, high) of variances in units
-    of those of least squares, ``apart`` limits :meth:`apart`."""
+    of those of least squares, ``mean`` limits their mean minus 1, ``apart`` limits :meth:`apart`.
+    """
 
-    def __init__(self, kind, sure, apart=APART):
-        self.kind, self.sure_within, self.most = kind, sure, apart
+    def __init__(self, kind, sure, apart=APART, mean=np.inf):
+        self.kind, self.sure_within, self.most, self.mean = kind, sure, apart, mean
 
     def in_order(self, inputs, x, P, ids):
         """x (r, n), P (r, n, n) with landmarks in the order of meeting."""
@@ -69,11 +70,10 @@ class Ends:
         return holds
 
     def ratios(self, inputs, outputs):
-        """Least and largest variance of the mean P in any direction, in units of least squares'."""
+        """Variances of the mean P along its principal directions, in units of least squares'."""
         P = self.of(inputs, outputs)[1]
         root = np.linalg.inv(np.linalg.cholesky(self.best(inputs)[1]))
-        ratios = np.linalg.eigvalsh(root @ P.mean(axis=0) @ root.T)
-        return ratios.min(), ratios.max()
+        return np.linalg.eigvalsh(root @ P.mean(axis=0) @ root.T)
 
     @once
     def best(self, inputs):
@@ -90,16 +90,17 @@ class Ends:
         """A law: x is that of least squares, and the mean of P has its variances."""
         if not whole(inputs, outputs):
             return False
-        (least, largest), (low, high) = self.ratios(inputs, outputs), self.sure_within
-        return low <= least and largest <= high and self.apart(inputs, outputs) <= self.most
+        ratios, (low, high) = self.ratios(inputs, outputs), self.sure_within
+        near = abs(ratios.mean() - 1) <= self.mean and self.apart(inputs, outputs) <= self.most
+        return near and low <= ratios.min() and ratios.max() <= high
 
     def ratios_told(self, inputs, outputs):
         if not whole(inputs, outputs):
             return "the map does not contain each measured landmark exactly once"
-        least, largest = self.ratios(inputs, outputs)
+        ratios = self.ratios(inputs, outputs)
         if (apart := self.apart(inputs, outputs)) > self.most:
             return f"the rms difference of x from least squares is {apart**0.5:.2g} σ"
         return (
-            f"in one direction of the state the variance by P is {least:.2g} times that of least "
-            f"squares, in another {largest:.2g} times"
+            f"in one direction of the state the variance by P is {ratios.min():.2g} times that of "
+            f"least squares, in another {ratios.max():.2g} times, on average {ratios.mean():.3g}"
         )

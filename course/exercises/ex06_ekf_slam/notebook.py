@@ -216,7 +216,8 @@ def _():
 #   runs, with your `P`, is at most 0.2: the rms difference is at most 0.45 σ of your `P`. Let $\bar
 #   P$ be the mean of your twenty `P`, and $P_{\mathrm{LS}}$ the covariance of the least squares
 #   estimate. For every vector $a$, the variance $a^{\mathsf T} \bar P a$ is 0.75 to 1.33 times the
-#   variance $a^{\mathsf T} P_{\mathrm{LS}}\, a$.
+#   variance $a^{\mathsf T} P_{\mathrm{LS}}\, a$. On average over all directions, it is 0.965 to
+#   1.035 times as large: this is the trace of $P_{\mathrm{LS}}^{-1} \bar P$, divided by $n$.
 #
 # Leaving the arguments unchanged is worth another 0.5 points. The check stops after 10 s.
 

@@ -49,16 +49,16 @@ def correlation(P):
 # %%
 ask(
     "ex07-learn",
-    "$P$ is block-diagonal at the start. The robot measures $p_1$, and then $p_2$, without moving. "
-    "**Does the measurement of $p_2$ reduce the variance of $p_1$?**",
+    "In a corridor a position is one number. The errors of the robot, of $p_1$ and of $p_2$ are "
+    "independent, with the variance 1 m² each, and the sensor has no noise. The robot measures $p_1$, "
+    "and then $p_2$, without moving. **What is the variance of $p_1$ at the end?**",
     {
-        "no: $p_1$ was not measured": "after the first measurement, the error of p1 is correlated "
-        "with the error of the pose. The second measurement corrects the pose, so it also corrects "
-        "p1.",
-        "yes, a little: its error is correlated with the pose": "the size of the reduction depends on the variance of the pose.",
-        "yes, and also if the pose is known exactly": "if the pose is known exactly, the errors of the two landmarks stay independent.",
+        "½ m²: it was measured only once": "this is the variance after the first measurement. The second one also corrects the robot, and $p_1$ with it.",
+        "⅓ m²": "the measurements give the exact distances, so the three estimates become three independent estimates of one position.",
+        "0: the sensor has no noise": "the sensor measures differences only. A shift of all three positions changes no measurement.",
+        "1 m²: the position of the robot is unknown": "the prior of the robot also contains information about $p_1$, once their distance is known.",
     },
-    right="yes, a little: its error is correlated with the pose",
+    right="⅓ m²",
 )
 
 # %% [markdown]
@@ -318,11 +318,12 @@ def _():
 #
 # | judged | how | points |
 # | --- | --- | --- |
-# | the (2, 2) blocks of `L` on the diagonal | differences at most $10^{-8}$ times the largest entry | 1 |
+# | the (2, 2) blocks of `L` on the diagonal | only errors of rounding: at most $3\cdot 10^{-14}$ of the largest coordinate or entry | 1 |
 # | all of `L` | as above | 1.5 |
 # | `n` | exactly | 1 |
 #
-# One set of inputs has coordinates of $10^9$ m: finite differences do not reach this accuracy.
+# A difference quotient of two values does not reach this accuracy. One set of inputs has coordinates
+# of $10^9$ m, where an error of $10^{-8}$ of the largest entry is allowed.
 
 
 # %%

@@ -6,7 +6,7 @@
 # guaranteed if some measurements are outliers, and find out how small boxes can be without excluding
 # a feasible pose.
 #
-# **60 minutes. Before:** lesson [10 · Set-membership SLAM: the BOR filter](../notebooks/10_set_membership_slam.ipynb).
+# **60 minutes for tasks 1 to 4, and 45 for task 5. Before:** lesson [10 · Set-membership SLAM: the BOR filter](../notebooks/10_set_membership_slam.ipynb).
 #
 # Replace each `raise NotImplementedError(...)` by your code, run the cell, then run the check below
 # it. You can repeat this as often as you like. A check tries random inputs and special cases that
@@ -38,9 +38,9 @@ from slamlab.layers import Boxes, Points
 # $$x' = x + d\cos(\theta+\delta),\qquad y' = y + d\sin(\theta+\delta).$$
 #
 # **Your task.** Return the smallest box that contains every possible position of the robot after
-# the motion. The distance is negative if the robot drives backwards. Any interval may have zero
-# width. The interval of $\theta + \delta$ may be wider than a whole turn, and $\delta$ may be
-# several turns, such as 14 rad. The check allows an error of $10^{-8}$ m for each side.
+# the motion. The distance is negative if the robot drives backwards. Any interval may have zero width. The interval of
+# $\theta + \delta$ may be wider than a whole turn, and $\delta$ may be several turns, such as 14 rad. The check allows
+# an error of $10^{-8}$ m for each side, also for distances of 200 km.
 #
 # Interval arithmetic gives this box in three steps: the *interval of directions* $\theta+\delta$; the
 # *range of its cosine and its sine*; the *products* of these ranges with the interval of $d$, which
@@ -450,11 +450,11 @@ def look(robot, heading, objects, z, bounds):
 # | 3 | smallest ones that the check found | 1.6 | 1.5 |
 # | 4 | smallest ones that the check found | 1.4 | 2 |
 #
-# Together with 0.5 points for unchanged arguments, these are the 5.5 points of the task. The check
-# also tries special cases. There every feasible pose must be inside, too, but the reference widths
-# are those of the given box and heading. Special cases with two robots count for step 1 only. Two
-# cases with more robots count for all steps: in one of them there are two separate sets of feasible
-# poses, and one of these sets is so small that random samples miss it.
+# Together with 0.5 points for unchanged arguments, these are the 5.5 points of the task. The check also tries special
+# cases. There every feasible pose must be inside, too, but the reference widths are those of the given box and heading.
+# Special cases with two robots count for step 1 only. Three cases with more robots count for all steps. In two of them
+# there are two separate sets of feasible poses, such as on both sides of a single landmark, and one of these sets may
+# be so small that random samples miss it.
 #
 # The number of landmarks may be zero, one, or more, and landmarks may be in the robot's box. left
 # − right is at most 4 rad. `bounds` are above 0, and no range is less than its bound. Bearings

@@ -44,7 +44,7 @@ from slamlab.layers import Points, Poses
 # Ticks are integers. They are negative for a wheel that rolls backwards, and they may be zero. A difference of
 # only one tick between the wheels also counts. The robot may turn by more than a full turn. You may wrap $\theta$
 # or not. The check allows errors of 0.001 % of the larger of $|x|$ and $|y|$, and of $\theta$. Another way than (12.4)
-# is welcome, such as the sum of a thousand small steps along the arc.
+# is welcome if it is as accurate. A thousand small steps, each in the direction of its start, are not.
 
 
 # %% name="odometry"

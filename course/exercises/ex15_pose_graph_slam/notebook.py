@@ -57,12 +57,11 @@ def error(x_i, x_j, z):
 #   T}$.
 #
 # **Your task.** Derive the heading column of $J_i$. Return $J_i$ and $J_j$. An edge may connect any
-# two poses, also two poses at the same position, and $z$ may be zero. Only rounding errors are
-# allowed: an entry may have an error of $3\cdot 10^{-14}$ of the largest coordinate or entry.
-# Difference quotients have larger errors at any step width, but a complex step is exact, and you
-# may use it with a formula of your own (`error` takes real numbers). Some edges have the
-# coordinates of surveyors, up to $10^7$ m, where an error of $10^{-8}$ of the largest entry is
-# allowed.
+# two poses, also two poses at the same position, and $z$ may be zero. Only rounding errors are allowed: an entry may
+# have an error of $3\cdot 10^{-14}$ of the largest coordinate or entry. A difference quotient of two values has larger
+# errors at any step width, but a complex step is exact, and you may use it with a formula of your own (`error` takes
+# real numbers). Some edges have the coordinates of surveyors, up to $10^7$ m, where an error of $10^{-8}$ of the
+# largest entry is allowed.
 
 
 # %% name="jacobians"
@@ -506,7 +505,7 @@ def _():
 # The odometry edges connect each pose to the next pose, in order, and none of them is false.
 # `poses` are computed from the odometry edges alone. Every run has at least one loop. The σ of a
 # true loop is about 5 cm and 1°, as in its $\Lambda$. Runs may differ in their numbers of poses
-# and of loops, and all loops of a run may be true.
+# and of loops, loops have any order, and all loops of a run may be true.
 
 
 # %% name="liars"

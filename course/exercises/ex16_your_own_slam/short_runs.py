@@ -1,4 +1,4 @@
-"""Short runs with wheel slip: a corridor and a loop of corridors.
+"""Short runs with wheel slip: a corridor with a bend, and a loop of corridors.
 
 Pairs of runs have opposite odometry errors: the mean of their odometry is the true motion.
 """
@@ -31,60 +31,67 @@ SHORT_SIGHTED = replace(LIDAR, range_max=SHORT_RANGE)
 STEP = 0.5  # distance between readings [m]
 WIDTH = 2.0  # of corridors [m]
 LAST = 5  # number of poses at the end that are judged
-BAD = 0.5  # least mean error of odometry over these poses [m]
-WHEELS = np.array([0.008, 0.004, 0.035])  # σ of the odometry error of a step [m, m, rad]
+BAD = 0.9  # least mean error of odometry over these poses [m]
+ODOMETRY = np.array([0.03, 0.004, 0.035])  # σ of a step's error in the corridors [m, m, rad]
+RADIUS = 2.0  # of the bend of a corridor [m]
 
 
-def corridor(rng, steps=18, lost=(), runs=2, bad=BAD):
-    """Return runs along a corridor with niches: odometry (runs, n, 3) [m, m, rad], ranges
-    (runs, n, beams) [m], NaN: no return. lost : readings whose scan is lost; bad : least mean
-    error of odometry over the last poses [m].
+def corridor(rng, steps=24, bend=2.5, lost=(), runs=2, scale=0.0, bad=BAD):
+    """Return runs along a corridor with niches and a bend: odometry (runs, n, 3) [m, m, rad],
+    ranges (runs, n, beams) [m], NaN: no return. bend : distance from the start [m]; lost :
+    readings whose scan is lost; scale : scale error of odometry; bad : least mean error of odometry
+    over the last poses [m].
     """
-    length = steps * STEP
+    length, turn = steps * STEP, rng.choice([-1, 1]) * rng.uniform(1.1, 1.35)
     sides = [_side(rng, -3.0, length + 3.0, y) for y in (-WIDTH / 2, WIDTH / 2)]
     ends = [[-3, -1, -3, 1], [length + 3, -1, length + 3, 1]]
-    world = World(np.concatenate([*sides, np.array(ends, dtype=float)]))
+    walls = np.concatenate([*sides, ends]).reshape(-1, 2)
+    world = World(_bent(walls, bend, turn)[:, :2].reshape(-1, 4))
     x = STEP * np.arange(steps + 1)
     phase, high = rng.uniform(0, 2 * np.pi), rng.uniform(0.1, 0.3)
-    y = high * np.sin(0.7 * x + phase)
-    truth = np.column_stack([x, y, np.arctan(0.7 * high * np.cos(0.7 * x + phase))])
+    truth = _bent(np.column_stack([x, high * np.sin(0.7 * x + phase)]), bend, turn)
+    truth[:, 2] += np.arctan(0.7 * high * np.cos(0.7 * x + phase))
     while True:
-        errors = WHEELS * rng.standard_normal((runs // 2, *truth.shape))
+        errors = ODOMETRY * rng.standard_normal((runs // 2, *truth.shape)) + [scale * STEP, 0, 0]
         inputs = _measured(rng, world, truth, errors, lost)
-        if off_at_the_end(inputs, [integrate_odometry(u) for u in inputs["odometry"]]).min() > bad:
+        if off_at_the_end(inputs, wheels(inputs)).min() > bad:
             return inputs
 
 
-def ring(rng, around=(5.5, 4.0), beyond=3.0, blind=10):
+def ring(rng, around=(9.0, 6.0), beyond=4.0, blind=12):
     """Return two runs round a block and past the start, in the format of :func:`corridor`.
-    ``blind`` consecutive scans are lost: the scans before and after hardly overlap.
+    ``blind`` consecutive scans are lost: the scans before and after do not overlap.
     around : sides of the loop [m]; beyond : distance driven past the start [m].
     """
     a, b = around
     corners = np.array([[0, 0], [a, 0], [a, b], [0, b], [0, 0]], dtype=float)
-    start = np.array([rng.uniform(1.5, 2.5), 0.0])
+    start = np.array([rng.uniform(2.0, 3.0), 0.0])
     way = np.concatenate([start[None], corners[1:], [[start[0] + beyond, 0.0]]])
-    h = WIDTH / 2
-    sides = [_side(rng, -h, a + h, y) for y in (-h, b + h)]
-    sides += [_side(rng, -h, b + h, x)[:, [1, 0, 3, 2]] for x in (-h, a + h)]
-    inner = np.array([[h, h, a - h, h], [a - h, h, a - h, b - h], [a - h, b - h, h, b - h],
-                      [h, b - h, h, h]])  # fmt: skip
-    world = World(np.concatenate([*sides, inner]))
+    sides = []
+    for h in (-WIDTH / 2, WIDTH / 2):  # outer and inner walls
+        sides += [_side(rng, h, a - h, y) for y in (h, b - h)]
+        sides += [_side(rng, h, b - h, x)[:, [1, 0, 3, 2]] for x in (h, a - h)]
+    world = World(np.concatenate(sides))
     truth = _along(way)
     turns = np.flatnonzero(np.abs(wrap(np.diff(truth[:, 2]))) > 0.5)
-    lost = turns[2] - blind // 2 + np.arange(blind)  # round the second corner
-    turned = rng.choice([-1, 1]) * rng.uniform(0.09, 0.1)
+    lost = turns[0] - blind // 2 + np.arange(blind)  # round the first corner
+    turned = rng.choice([-1, 1]) * rng.uniform(0.1, 0.11)
     while True:
-        errors = WHEELS * [1, 1, 0.4] * rng.standard_normal(truth.shape)
+        errors = [0.008, 0.004, 0.014] * rng.standard_normal(truth.shape)  # [m, m, rad]
         errors[lost, 2] = turned / blind  # a heading error of either sign
         inputs = _measured(rng, world, truth, errors[None], lost, SHORT_SIGHTED)
-        if off_at_the_end(inputs, [integrate_odometry(u) for u in inputs["odometry"]]).min() > BAD:
+        if off_at_the_end(inputs, wheels(inputs)).min() > 0.3:
             return inputs
 
 
 def route(inputs):
     """Return (n, 3) the true poses, relative to the first pose."""
     return integrate_odometry(inputs["odometry"].mean(axis=0))
+
+
+def wheels(inputs):
+    """Return the poses of odometry of each run."""
+    return [integrate_odometry(odometry) for odometry in inputs["odometry"]]
 
 
 def length(inputs):
@@ -123,6 +130,18 @@ def _along(way):
         for t in np.arange(0, length - STEP / 2, STEP):
             poses.append(np.array([*(begin + (end - begin) * t / length), heading]))
     return np.array(poses)
+
+
+def _bent(points, begin, turn):
+    """Bend what lies along x to an arc from x = begin: return (n, 3) points and directions."""
+    along, arc, sign = points[:, 0] - begin, RADIUS * abs(turn), np.sign(turn)
+    angle = turn * np.clip(along / arc, 0, 1)
+    straight = np.maximum(along - arc, 0)
+    x = begin + np.minimum(along, 0) + sign * RADIUS * np.sin(angle) + straight * np.cos(turn)
+    y = sign * RADIUS * (1 - np.cos(angle)) + straight * np.sin(turn)
+    return np.column_stack(
+        [x - points[:, 1] * np.sin(angle), y + points[:, 1] * np.cos(angle), angle]
+    )
 
 
 def _side(rng, begin, end, y):

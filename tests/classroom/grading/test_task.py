@@ -127,4 +127,4 @@ def test_the_one_function_not_attempted_is_named():
 def test_an_output_of_any_length_may_not_be_of_every_length():
     task = dataclasses.replace(TURN, shapes={"points": (None, 2)})
     verdict = task.judge(SETS, {MAIN: {"points": np.zeros((2001, 2))}})
-    assert "2001 entries: at most 2000 are allowed" in verdict.problem
+    assert "2001 entries: no correct answer has more than 2000" in verdict.problem

@@ -55,9 +55,9 @@ def right(v, angle):
     return one["result"][0]
 
 
-def report(function, seed=OPEN_SEED):
-    sets = TURN.draw_inputs(seed)
-    found = describe_error_pattern(TURN, sets, call_on_sets(TURN.call, {"turn": function}, sets))
+def report(function, seed=OPEN_SEED, task=TURN):
+    sets = task.draw_inputs(seed)
+    found = describe_error_pattern(task, sets, call_on_sets(task.call, {"turn": function}, sets))
     return found and (found.name, found.hint)
 
 
@@ -92,6 +92,13 @@ def test_right_answers_and_answers_without_a_pattern_get_no_error_pattern(seed, 
     assert report(right, seed) is None
     assert report(lambda v, a: right(v, a) + 1e-12 * turns, seed) is None
     assert report(lambda v, a: right(v, a) ** 2 + v[0], seed) is None
+
+
+@pytest.mark.parametrize("rows, name", [(8, None), (9, "one side")])
+def test_the_sign_of_an_entry_is_named_only_if_the_rows_suffice_for_the_entries(rows, name):
+    task = dataclasses.replace(TURN, inputs=lambda rng: _vectors(rng, rows), probes=())
+    found = report(lambda v, a: right(v, a) * (1 if a >= 0 else v[0]), task=task)
+    assert (found and found[0]) == name
 
 
 def test_an_error_pattern_states_which_probe_alone_is_wrong_and_how():

@@ -9,7 +9,7 @@ from classroom.exercises.task import OPEN_SEED
 from course.exercises.ex16_your_own_slam import short_runs
 from course.exercises.ex16_your_own_slam.calls import integrate_odometry
 from course.exercises.ex16_your_own_slam.exercise import EXERCISE
-from course.exercises.ex16_your_own_slam.sure.task import BLIND, HIGH, is_consistent, mean_nees
+from course.exercises.ex16_your_own_slam.sure.task import BLIND, HIGHS, is_consistent, mean_nees
 from course.project.reference_estimators import ScanGraph
 from course.project.solution import MySlam as Solution
 from course.project.template import MySlam as Template
@@ -195,7 +195,7 @@ def test_no_covariance_that_is_constant_or_ignores_the_scans_is_consistent(seed)
     for claimed in (constant, growing, levels):
         P = np.broadcast_to(claimed, found["covariance"].shape)
         assert not is_consistent(inputs, found | {"covariance": P})
-    assert (mean_nees(inputs, found | {"covariance": P * 0 + growing}) < HIGH).all()
+    assert (mean_nees(inputs, found | {"covariance": P * 0 + growing}) < HIGHS).all()
 
 
 @pytest.mark.parametrize(

@@ -73,19 +73,12 @@ def miss(poses, length_error, heading_error, robots=200):
     along, across = lengths * np.cos(headings), lengths * np.sin(headings)
     return [along.sum(axis=1).std(), across.sum(axis=1).std()]
 
-# %% right: a loop over the errors
+# %% right: by length and direction of each arm
 def miss(poses, length_error, heading_error):
-    n = len(poses) - 1
-    vx = vy = 0.0
-    ex, ey = poses[-1, 0], poses[-1, 1]
-    for k in range(1, n + 1):
-        dx = poses[k, 0] - poses[k - 1, 0]
-        dy = poses[k, 1] - poses[k - 1, 1]
-        vx += (length_error * dx) ** 2
-        vy += (length_error * dy) ** 2
-        vx += (heading_error * (ey - poses[k, 1])) ** 2
-        vy += (heading_error * (ex - poses[k, 0])) ** 2
-    return np.array([np.sqrt(vx), np.sqrt(vy)])
+    moved, arm = np.diff(poses[:, :2], axis=0), poses[-1, :2] - poses[1:, :2]
+    across = np.arctan2(arm[:, 1], arm[:, 0]) + np.pi / 2
+    turned = np.hypot(*arm.T)[:, None] * np.column_stack([np.cos(across), np.sin(across)])
+    return np.sqrt(((length_error * moved) ** 2 + (heading_error * turned) ** 2).sum(axis=0))
 
 # %% right: one matrix of all influences
 def miss(poses, length_error, heading_error):

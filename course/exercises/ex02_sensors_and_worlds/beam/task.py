@@ -126,8 +126,8 @@ BEAM = Task(
             "short",
             1,
             "a scan of objects in front of the wall has the right log-likelihood",
-            "How large is the integral of your density from 0 to the wall, and what is the "
-            "density behind it?",
+            "By which factor does your density decrease over one metre? How large is its integral "
+            "from 0 to the wall, and what is the density behind it?",
         ),
         _law(
             "mixture",

@@ -248,11 +248,11 @@ MISTAKES = (
     ),
     Diagnosis(
         "still-too-large",
-        "Your error is too large for most sensors. How much do outliers near the wall, and the "
-        "quantisation, add to a variance?",
+        "Your error is too large for most sensors. If you compute it as a variance: how much do "
+        "outliers near the wall, and the quantisation, add?",
         lambda inputs, outputs: np.median(_far_off(inputs, outputs)) > 0.15,
-        asks="Which readings near the wall are still in your sum of squares, and which "
-        "other errors does it contain?",
+        asks="From which readings do you compute the error of a sensor? Which of them are not of "
+        "the wall, and which other errors do they contain?",
     ),
 )
 

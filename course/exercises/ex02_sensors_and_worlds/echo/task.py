@@ -109,13 +109,13 @@ def _on_the_way(inputs):
     return {"τ of each foot": s, "bearings of the ends from the axis": np.stack(ends, axis=-1)}
 
 
-def _law(name, points, says, ways, asks):
+def _law(name, points, says, ways, asks, **more):
     def holds(inputs, outputs):
         right, kind = heard(inputs)
         return ~np.isin(kind, ways) | distance_is(inputs, outputs, right)
 
     want = lambda inputs: as_outputs(heard(inputs)[0])  # noqa: E731
-    return Law(name, points, says, holds, want=want, asks=asks, step=_on_the_way)
+    return Law(name, points, says, holds, want=want, asks=asks, step=_on_the_way, **more)
 
 
 def _heard_at_all(inputs, outputs):
@@ -163,7 +163,7 @@ ECHO = Task(
     laws=(
         _law(
             "foot",
-            2,
+            1,
             "the distance is right if the nearest point lies between the ends of a wall",
             ["foot"],
             "From which point of an infinitely long wall does the first echo come, and what is "
@@ -171,7 +171,7 @@ ECHO = Task(
         ),
         _law(
             "end",
-            2,
+            1.5,
             "the distance is right if the nearest point is the end of a wall",
             ["end"],
             "If the foot of the perpendicular is not on the wall, which point of the wall is "
@@ -179,11 +179,12 @@ ECHO = Task(
         ),
         _law(
             "rim",
-            0.5,
-            "the distance is right if a wall crosses the edge of the cone at its nearest point",
-            ["rim"],
+            2,
+            "the distance is also right if a wall crosses an edge of the cone at its nearest point",
+            ["foot", "rim"],  # beams along both edges find rims, and no foot
             "Suppose that a wall begins outside the cone and enters the cone. Which of its points "
             "inside the cone is the nearest?",
+            after=("foot",),
         ),
         Law(
             "heard",

@@ -209,8 +209,8 @@ NOISE = Task(
             "the fraction of lost readings is dropouts, and other beams are lost in each scan",
             _lost_by_chance,
             why=_why_lost,
-            asks="Suppose that a random number is uniform between 0 and 1. With which probability "
-            "is it below 0.2?",
+            asks="With which probability is a random number below 0.2 that is uniform between 0 "
+            "and 1? Which beams does your code lose with another seed?",
             step=_lost,
         ),
         Law(
@@ -249,6 +249,7 @@ NOISE = Task(
         Probe(SHORT, _of(n=150, beams=15, open_=0, lost=(0.2, 0.4)), ("one by one",)),
         Probe("no dropouts", _of(lost=(0, 0)), EXACT),
         Probe("every beam lost", _of(beams=50, lost=(1, 1)), EXACT),
+        Probe("a sensor with much noise", _of(beams=8000, error=(0.2, 0.25)), EXACT),
         Probe("a sensor without noise", _of(beams=300, error=(0, 0)), EXACT),
         Probe("no wall within range", _of(beams=20, open_=1), EXACT),
         Probe("a scan of no beams", _of(beams=0), EXACT),

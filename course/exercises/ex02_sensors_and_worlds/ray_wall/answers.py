@@ -84,15 +84,6 @@ def ray_wall(p, phi, wall):
     tau = (q[0] * u[1] - q[1] * u[0]) / det
     return r if 0 <= tau <= 1 and r > 0 else None
 
-# %% wrong: the wall as an endless line
-def ray_wall(p, phi, wall):
-    n = np.array([wall[1] - wall[3], wall[2] - wall[0]])
-    den = n @ [np.cos(phi), np.sin(phi)]
-    if abs(den) < 1e-12:
-        return np.inf
-    t = n @ (wall[:2] - p) / den
-    return t if t >= 0 else np.inf
-
 # %% wrong: the distance to the wall's nearest place
 def ray_wall(p, phi, wall):
     a, w = wall[:2] - p, wall[2:] - wall[:2]

@@ -62,13 +62,9 @@ def everything(i):
     return {"xs": xs, "Ps": Ps}
 
 
-def _x_before_one(i):
-    return {"x before the first measurement": times(i["F"], i["x"])[0]}
-
-
-def _P_before_one(i):
-    P = i["F"] @ i["P"] @ turned(i["F"]) + i["Q"]
-    return {"P before the first measurement": P[0]}
+def _before_one(i):
+    x, P = times(i["F"], i["x"]), i["F"] @ i["P"] @ turned(i["F"]) + i["Q"]
+    return {"x before the first measurement": x[0], "P before it": P[0]}
 
 
 FILTER = Task(
@@ -87,9 +83,9 @@ FILTER = Task(
             "after each measurement x is the least-squares estimate from all measurements so far",
             lambda i: {"xs": everything(i)["xs"]},
             asks="Follow the first measurement on paper. How many steps has the system made "
-            "before this measurement? With which x and P does the filter continue after the "
-            "update?",
-            step=_x_before_one,
+            "before this measurement? Which x and P do you have before the update, and with "
+            "which x and P do you continue after it?",
+            step=_before_one,
         ),
         equals(
             "covariances",
@@ -98,7 +94,7 @@ FILTER = Task(
             lambda i: {"Ps": everything(i)["Ps"]},
             asks="Print the variances in your Ps: they should become constant after a few steps. "
             "Which line of your code increases them, and which line decreases them?",
-            step=_P_before_one,
+            step=_before_one,
         ),
     ),
     needs=("03-update",),

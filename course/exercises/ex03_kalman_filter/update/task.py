@@ -32,11 +32,8 @@ def _posterior(i):
 
 
 def _innovation(i):
-    return {"z − H x": (i["z"] - times(i["H"], i["x"]))[0]}
-
-
-def _innovation_covariance(i):
-    return {"covariance of the innovation": (i["H"] @ i["P"] @ i["H"].swapaxes(1, 2) + i["R"])[0]}
+    S = i["H"] @ i["P"] @ i["H"].swapaxes(1, 2) + i["R"]
+    return {"z − H x": (i["z"] - times(i["H"], i["x"]))[0], "its covariance": S[0]}
 
 
 UPDATE = Task(
@@ -52,7 +49,7 @@ UPDATE = Task(
             "x is the weighted least-squares estimate from prior and measurement",
             lambda i: {"x": least_squares(i)[0]},
             asks="Suppose that z is equal to the predicted measurement. What should x become? "
-            "Does the gain use the prior P or the posterior P?",
+            "Otherwise, on which entries of R does the correction of x depend, and on which P?",
             step=_innovation,
         ),
         equals(
@@ -62,7 +59,7 @@ UPDATE = Task(
             lambda i: {"P": least_squares(i)[1]},
             asks="Write the new error, x̃ − K (H x̃ + ε), and multiply it by its transpose. Which "
             "terms remain in the expected value? Does your P contain all of them?",
-            step=_innovation_covariance,
+            step=_innovation,
         ),
     ),
     probes=(

@@ -165,7 +165,7 @@ TASK = Task(
         Probe("headings after many turns", _often_turned, ("heading",)),
         Probe(NAME, _far, ("place", "landmark")),
     ),
-    diagnoses=(differences(_H),),
+    diagnoses=(differences(_H, exact=_u),),
     parts=_parts,
     may_round=False,  # a rounded landmark may lie behind the camera
     needs=("04-h-robot",),

@@ -165,16 +165,6 @@ def J_z(x, z):
     c, s = _last["c"], _last["s"]
     return np.array([[c, -z[0] * s], [s, z[0] * c]])
 
-# %% wrong: both transposed
-def J_xr(x, z):
-    a = x[2] + z[1]
-    return np.vstack([np.eye(2), [-z[0] * np.sin(a), z[0] * np.cos(a)]])
-
-
-def J_z(x, z):
-    a = x[2] + z[1]
-    return np.vstack([[np.cos(a), np.sin(a)], [-z[0] * np.sin(a), z[0] * np.cos(a)]])
-
 # %% wrong: one-sided differences, step 0.01 rad
 def J_xr(x, z):
     return np.column_stack([(g(x + e, z) - g(x, z)) / 0.01 for e in 0.01 * np.eye(3)])

@@ -12,11 +12,11 @@ from slamlab.geometry import wrap
 from slamlab.models import jacobians
 
 
-def laps(rng, rows=4, steps=9, landmarks=3, unseen=2, step=(0.4, 0.7)):
+def laps(rng, rows=4, steps=9, landmarks=3, unseen=2, step=(0.4, 0.7), turn=1):
     """Runs in which every landmark is measured, without the map."""
     made = []
     while len(made) < rows:
-        one = runs(rng, 1, steps, landmarks, unseen, step)
+        one = runs(rng, 1, steps, landmarks, unseen, step, turn)
         if len(np.unique(one["ids"][one["ids"] >= 0])) == landmarks:
             made.append(one)
     return _mapless({name: np.concatenate([one[name] for one in made]) for name in made[0]})
@@ -103,6 +103,7 @@ ALTERNATE = Task(
         Probe("every landmark measured once", _all_new, NEW),
         Probe("thirty steps", lambda rng: laps(rng, 1, 30, 5, 6)),
         Probe("a robot that drives backwards", lambda rng: laps(rng, 2, 6, 2, 1, (-0.7, -0.4))),
+        Probe("a robot that stands still", lambda rng: laps(rng, 2, 4, 2, 1, (0.0, 0.0), 0)),
         Probe("a landmark right behind the robot", lambda rng: _mapless(behind(rng))),
     ),
     shapes=_shapes,

@@ -96,18 +96,6 @@ def localise(x, P, drives, ids, zs, landmarks, C, R):
         Ps.append(P)
     return np.array(xs), np.array(Ps)
 
-# %% wrong: a standing robot does not predict (and so adds no noise of the turn)
-def localise(x, P, drives, ids, zs, landmarks, C, R):
-    xs, Ps = [], []
-    for u, i, z in zip(drives, ids, zs):
-        if u[0] > 0:
-            x, P = predict(x, P, u, C)
-        if i >= 0:
-            x, P = locate(x, P, z, landmarks[i], R)
-        xs.append(x)
-        Ps.append(P)
-    return np.array(xs), np.array(Ps)
-
 # %% wrong: only the last belief
 def localise(x, P, drives, ids, zs, landmarks, C, R):
     for u, i, z in zip(drives, ids, zs):

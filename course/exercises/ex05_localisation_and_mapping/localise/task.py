@@ -17,16 +17,16 @@ from slamlab import models
 from slamlab.geometry import wrap
 
 
-def runs(rng, rows=5, steps=7, landmarks=4, unseen=2, step=(0.4, 0.7)):
+def runs(rng, rows=5, steps=7, landmarks=4, unseen=2, step=(0.4, 0.7), turn=1):
     """Runs, each in its own world. Landmark 0 and the last landmark are measured; ``unseen`` steps
     have no measurement."""
-    made = [_run(rng, steps, landmarks, unseen, step) for _ in range(rows)]
+    made = [_run(rng, steps, landmarks, unseen, step, turn) for _ in range(rows)]
     return {name: np.array([one[name] for one in made]) for name in made[0]}
 
 
-def _run(rng, steps, landmarks, unseen, step):
+def _run(rng, steps, landmarks, unseen, step, turn):
     (x,), (P,) = beliefs(rng, 1)
-    turns = either_sign(rng, 1, 1) * rng.uniform(0.2, 0.5, steps)
+    turns = turn * either_sign(rng, 1, 1) * rng.uniform(0.2, 0.5, steps)
     drives = np.column_stack([rng.uniform(*step, steps), turns])
     way = driven(x, drives)
     around = (np.arange(landmarks) + 0.6 * rng.random(landmarks)) * 2 * np.pi / landmarks
@@ -48,8 +48,7 @@ def _run(rng, steps, landmarks, unseen, step):
 
 def behind(rng):
     """Straight runs away from a landmark, whose bearings are near ±π."""
-    inputs = runs(rng, 2, 5, 1, 0)
-    inputs["drives"][..., 1] = 0
+    inputs = runs(rng, 2, 5, 1, 0, turn=0)
     x, d = inputs["x"], inputs["drives"][..., 0].cumsum(axis=1)
     inputs["landmarks"] = models.g(x, np.tile([2.0, np.pi], (2, 1)))[:, None]
     off = np.tile([0.03, -0.03, 0.05, -0.04, 0.03], (2, 1))
@@ -87,6 +86,7 @@ LOCALISE = Task(
         Probe("thirty steps", lambda rng: runs(rng, 1, 30, 6, 8)),
         Probe("a robot that drives backwards", lambda rng: runs(rng, 2, 4, 3, 1, (-0.7, -0.4))),
         Probe("a robot that only turns", lambda rng: runs(rng, 2, 4, 3, 1, (0.0, 0.0))),
+        Probe("a robot that stands still", lambda rng: runs(rng, 2, 4, 3, 1, (0.0, 0.0), 0)),
         Probe("a landmark right behind the robot", behind),
     ),
     shapes=lambda inputs: {

@@ -74,15 +74,6 @@ def augment(x, P, z, R):
     corner = A @ P[:3, :3] @ A.T + B @ R @ B.T
     return np.append(x, g(x[:3], z)), np.vstack([np.hstack([P, top]), np.hstack([top.T, corner])])
 
-# %% wrong: returned in the wrong order
-def augment(x, P, z, R):
-    n = len(x)
-    T = np.eye(n + 2)
-    T[n:, :3], T[n:, n:] = J_xr(x[:3], z), J_z(x[:3], z)
-    full = np.zeros((n + 2, n + 2))
-    full[:n, :n], full[n:, n:] = P, R
-    return T @ full @ T.T, np.append(x, g(x[:3], z))
-
 # %% wrong: for a map of two landmarks: sizes fixed at seven
 def augment(x, P, z, R):
     A, B = J_xr(x[:3], z), J_z(x[:3], z)

@@ -109,7 +109,8 @@ UPDATE = Task(
             2,
             "x is the least squares estimate from the prior and the measurement",
             lambda inputs: {"x": want(inputs)["x"]},
-            asks="Is any entry of K zero? By which vector do you multiply K?",
+            asks="At which state must H and the predicted measurement be taken? Which entries of x "
+            "does one measurement change?",
             **MEAN,
         ),
         equals(
@@ -128,8 +129,8 @@ UPDATE = Task(
             2,
             "P is the covariance of that estimate: its inverse is (prior P)⁻¹ + Hᵀ R⁻¹ H",
             lambda inputs: {"P": want(inputs)["P"]},
-            asks="Is any block of K S Kᵀ zero? What does this mean for landmarks that were not "
-            "measured?",
+            asks="At which state must H be taken, and how often may the measurement enter P? What "
+            "does it change for landmarks that were not measured?",
             step=_on_the_way,
         ),
     ),

@@ -82,16 +82,6 @@ def lower_bound(x, P, p, sigma, share):
     trace = np.diag(L).reshape(-1, 2).sum(axis=1)
     return L, np.ceil(2 * sigma**2 / (share * trace))
 
-# %% wrong: a Kalman filter with a thousand measurements in place of the limit
-def lower_bound(x, P, p, sigma, share):
-    m = len(p)
-    off = p - x[:2]
-    J = np.zeros((2 * m, 3))
-    J[0::2, 0], J[1::2, 1], J[0::2, 2], J[1::2, 2] = 1, 1, -off[:, 1], off[:, 0]
-    L = J @ P @ J.T + np.diag(np.repeat(sigma**2 / 1000, 2))
-    trace = np.diag(J @ P @ J.T).reshape(-1, 2).sum(axis=1)
-    return L, np.ceil(2 * sigma**2 / (share * trace))
-
 # %% wrong: the trace of a measurement is sigma squared, and the heading turns the vectors
 def lower_bound(x, P, p, sigma, share):
     c, s = np.cos(x[2]), np.sin(x[2])

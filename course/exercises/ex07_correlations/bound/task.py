@@ -8,7 +8,7 @@ from classroom.exercises.correctness_laws import equals, once
 from classroom.exercises.task import Probe, Task
 from course.exercises.ex07_correlations.beliefs import T, covariances
 from course.exercises.ex07_correlations.calls import CALLS
-from course.exercises.surveyed import EXACT, FARTHEST, differences
+from course.exercises.surveyed import EXACT, FARTHEST, differences, rounded
 
 
 def starts(rng, rows=8, landmarks=3, sigma=(0.05, 0.4), share=(0.02, 0.2)):
@@ -35,6 +35,13 @@ def _at_the_robot(rng):
 def _independent(rng):
     found = starts(rng, 2)
     return found | {"P": found["P"] * np.eye(3)}
+
+
+def _at_most(rng):
+    """Numbers whose quotients are exact: some traces are equal to their bound after n."""
+    P = np.tile(np.diag([0.25, 0.25, 0.0625]), (3, 1, 1))
+    found = {"x": np.zeros((3, 3)), "P": P, "p": np.zeros((3, 3, 2))}
+    return found | {"sigma": np.tile([0.25, 0.5, 1], (3, 1)), "share": np.array([0.25, 0.5, 1])}
 
 
 def _far(rng):
@@ -65,6 +72,10 @@ def want(inputs):
     return {"L": L, "n": np.maximum(1, np.ceil(n))}
 
 
+def _limit(inputs):
+    return {"L": want(inputs)["L"]}
+
+
 def _own(L):
     """The (2, 2) blocks of the landmarks: (rows, m, 2, 2)."""
     m = L.shape[1] // 2
@@ -75,23 +86,22 @@ def _turned(inputs):
     return {"change of p when the start turns by 1 rad": slopes(inputs)[..., 2]}
 
 
+def _derived(name, points, says, want, **more):
+    """A law that allows only errors of rounding."""
+    return rounded(equals(name, points, says, want, tolerance=EXACT, step=_turned, **more), want)
+
+
 def _own_blocks():
     """A law on the (2, 2) blocks of L on the diagonal."""
-    law = equals(
+    law = _derived(
         "own",
         1,
         "the (2, 2) blocks of L on the diagonal are the limits of each landmark's covariance",
         lambda inputs: {"L": _own(want(inputs)["L"])},
-        tolerance=EXACT,
         asks="The heading at the start is wrong by 0.01 rad. In which direction is a landmark "
         "wrong that is 5 m ahead of the robot, and by how much?",
-        step=_turned,
     )
-    return replace(
-        law,
-        holds=lambda i, o: law.holds(i, {"L": _own(o["L"])}),
-        want=lambda i: {"L": want(i)["L"]},
-    )
+    return replace(law, holds=lambda i, o: law.holds(i, {"L": _own(o["L"])}), want=_limit)
 
 
 def _traces(inputs):
@@ -122,18 +132,17 @@ BOUND = Task(
         Probe("uncorrelated errors of the start", _independent),
         Probe("an accurate sensor", lambda rng: starts(rng, 2, sigma=(0.001, 0.003)), ("enough",)),
         Probe("a share above 1", lambda rng: starts(rng, 4, share=(1, 3)), ("enough",)),
+        Probe("a trace that is equal to its bound after n measurements", _at_most, ("enough",)),
         Probe(FAR_OFF, _far, LIMIT),
     ),
     laws=(
         _own_blocks(),
-        equals(
+        _derived(
             "together",
             1.5,
             "L is the limit of the covariance of all landmarks together",
-            lambda inputs: {"L": want(inputs)["L"]},
-            tolerance=EXACT,
+            _limit,
             asks="Which error do two landmarks have in common, and how does each follow it?",
-            step=_turned,
             after=("own",),
         ),
         equals(
@@ -146,7 +155,7 @@ BOUND = Task(
             step=_traces,
         ),
     ),
-    diagnoses=(differences(lambda inputs: {"L": want(inputs)["L"]}, FAR_OFF),),
+    diagnoses=(differences(_limit, FAR_OFF),),
     may_round=_promised,
     begins=(
         "The start is wrong by 10 cm in x. How wrong is each landmark, after a thousand "

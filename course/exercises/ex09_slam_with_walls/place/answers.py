@@ -42,17 +42,6 @@ def place(x, P, z, R):
     line = [z[0] + x[0] * np.cos(a) + x[1] * np.sin(a), a]
     return line, np.asarray(Jr * P * Jr.T + Jz * R * Jz.T), np.asarray(Jr * P)
 
-# %% right: one Jacobian of pose and sight
-def place(x, P, z, R):
-    a = x[2] + z[1]
-    c, s = np.cos(a), np.sin(a)
-    d = x[1] * c - x[0] * s
-    J = np.array([[c, s, d, 1.0, d], [0, 0, 1, 0, 1]])
-    Q = np.zeros((5, 5))
-    Q[:3, :3], Q[3:, 3:] = P, R
-    line = np.array([z[0] + c * x[0] + s * x[1], np.arctan2(s, c)])
-    return line, J @ Q @ J.T, J[:, :3] @ P
-
 # %% right: foot of the perpendicular: rho as a scalar product, no wrap by hand
 def place(x, P, z, R):
     alpha = wrap(z[1] + x[2])

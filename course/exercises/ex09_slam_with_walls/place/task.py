@@ -7,7 +7,7 @@ from classroom.exercises.references import Reference
 from classroom.exercises.task import Probe, Task
 from course.exercises.ex06_ekf_slam.beliefs import T, covariances, either_sign
 from course.exercises.ex09_slam_with_walls.calls import CALLS
-from course.exercises.surveyed import EXACT, FARTHEST, differences, vague
+from course.exercises.surveyed import EXACT, FARTHEST, differences
 from slamlab import models
 from slamlab.models import jacobians
 
@@ -29,10 +29,9 @@ def sights(rng, rows=8, beyond=2, bearings=(0.4, 2.6), ahead=(0.5, 3)):
     return {"x": x, "P": covariances(rng, of_pose), "z": z, "R": covariances(rng, of_wall)}
 
 
-def _with(rows=2, times=None, **others):
-
+def _with(rows=2, times=None, beyond=2, **others):
     def inputs(rng):
-        found = sights(rng, rows)
+        found = sights(rng, rows, beyond)
         return found | {name: found[name] * by for name, by in (times or {}).items()} | others
 
     return inputs
@@ -75,11 +74,12 @@ def _parts(inputs, outputs):
     rho = rho / (1 + np.abs(inputs["x"][:, :2]).max(axis=1))  # a fingerprint has few digits
     # by its cosine and sine: −π and π are one direction
     normal = np.column_stack([np.cos(alpha), np.sin(alpha)])
-    return {"rho": rho, "normal": normal, "C": outputs["C"], "X": outputs["X"]}
+    C, X = np.arcsinh(outputs["C"]), np.arcsinh(outputs["X"])  # far off they hide all others
+    return {"rho": rho, "normal": normal, "C": C, "X": X}
 
 
 def _far(rng):
-    found = vague(sights(rng, 4, 0), ["P", "R"])
+    found = _with(4, {"P": 10.0, "R": 10.0}, beyond=0)(rng)  # no error is below ROUNDING
     found["z"][:, 1] = found["x"][:, 2] = 0  # α is exactly 0
     found["x"][:, 0] += FARTHEST
     return found

@@ -216,24 +216,6 @@ def narrow(robot, heading, objects, z, bounds):
     return np.array([low[0], high[0], low[1], high[1]]), np.array([low[2], high[2]])
 
 
-# %% wrong: random poses, a margin of 20 %
-def narrow(robot, heading, objects, z, bounds):
-    rng = np.random.default_rng(0)
-    sides = np.reshape([*robot, *heading], (3, 2)).astype(float)
-    low, high = sides.T
-    for _ in range(6):
-        poses = rng.uniform(low, high, (20000, 3))
-        share = np.zeros(len(poses))
-        for (x, y), seen in zip(objects, z):
-            dx, dy = x - poses[:, 0], y - poses[:, 1]
-            error = np.array([np.hypot(dx, dy) - seen[0], wrap(np.arctan2(dy, dx) - poses[:, 2] - seen[1])])
-            share = np.maximum(share, np.abs(error / bounds[:, None]).max(axis=0))
-        poses = poses[share <= max(1, np.sort(share)[50])]
-        margin = 0.2 * np.ptp(poses, axis=0)
-        low = np.maximum(low, poses.min(axis=0) - margin)
-        high = np.minimum(high, poses.max(axis=0) + margin)
-    return np.array([low[0], high[0], low[1], high[1]]), np.array([low[2], high[2]])
-
 # %% wrong: look until nothing changes, heading as it was
 def narrow(robot, heading, objects, z, bounds):
     for _ in range(30):

@@ -89,10 +89,12 @@ def _extremes(key):
 
 def _mirrored(given, poses):
     """Poses (n, 1, 3) mirrored in the line through the first two objects: all ranges to objects on
-    this line stay the same, and the heading is that of the least error of bearings."""
-    if given["objects"].shape[1] < 2:
-        return poses
+    this line stay the same, and the heading is that of the least error of bearings. A single object
+    mirrors in itself, and turns the heading by π."""
     first, along = given["objects"][:, :1], np.diff(given["objects"][:, :2], axis=1)
+    if not along.size:
+        back = poses[..., 2:] + np.pi * np.sign(_known(given)[0][:, None, 2:] - poses[..., 2:])
+        return np.dstack([2 * first - poses[..., :2], back]) if first.size else poses
     off_line = poses[..., :2] - first
     across = along[..., ::-1] * [-1, 1] / np.hypot(along[..., :1], along[..., 1:])
     aside = (off_line * across).sum(axis=-1, keepdims=True)
@@ -121,6 +123,19 @@ def islands(rng, n=16):
         "objects": objects,
         "z": z,
         "bounds": bounds,
+    }
+
+
+def both_sides(rng, n=4):
+    """Robots in long boxes around a single object, with feasible poses on both sides of it."""
+    given = inputs(rng, n, 1)
+    r, heading = given["z"][:, 0, 0], rng.uniform(-np.pi, np.pi, n)
+    half = np.column_stack([1.2 * r, rng.uniform(0.1, 0.2, n)])
+    wide = np.pi + rng.uniform(0.4, 0.8, n)
+    given["z"][:, 0, 1] = off(-heading - rng.uniform(0.2, 0.3, n))
+    return given | {
+        "robot": boxes_around(given["objects"][:, 0], half),
+        "heading": wrapped(heading, wide),
     }
 
 

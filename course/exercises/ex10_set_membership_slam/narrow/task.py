@@ -183,7 +183,7 @@ NARROW = Task(
     ),
     probes=(
         Probe("no landmark", lambda rng: poses.inputs(rng, 2, 0), ("sound",)),
-        Probe("a single landmark", lambda rng: poses.inputs(rng, 2, 1), ("sound",)),
+        Probe("a single landmark", poses.both_sides),
         Probe("seven landmarks", lambda rng: poses.inputs(rng, 12, 7)),
         Probe("two separate sets of feasible poses", poses.islands),
         Probe("a wide heading", _wide, ("sound",)),

@@ -48,15 +48,6 @@ def predict(box, heading, way, direction):
     moved = np.concatenate([reach(low, high, way), reach(low - np.pi / 2, high - np.pi / 2, way)])
     return box + moved
 
-# %% right: corners of distance and of a fine list of critical directions
-def predict(box, heading, way, direction):
-    lo, hi = heading[0] + direction[0], heading[1] + direction[1]
-    quarter = np.pi / 2
-    a = [lo, hi] + [k * quarter for k in range(int(np.ceil(lo / quarter)), int(np.floor(hi / quarter)) + 1)]
-    dx = [d * np.cos(t) for d in way for t in a]
-    dy = [d * np.sin(t) for d in way for t in a]
-    return [box[0] + min(dx), box[1] + max(dx), box[2] + min(dy), box[3] + max(dy)]
-
 # %% right: candidate angles: both ends and all multiples of pi/2 between them, corners of distance
 def predict(box, heading, way, direction):
     lo, hi = heading[0] + direction[0], heading[1] + direction[1]
@@ -71,18 +62,6 @@ def predict(box, heading, way, direction):
         xs += [way[0] * c, way[1] * c]
         ys += [way[0] * s, way[1] * s]
     return np.array([box[0] + min(xs), box[1] + max(xs), box[2] + min(ys), box[3] + max(ys)])
-
-# %% right: candidates: ends and all multiples of a right angle between
-def predict(box, heading, way, direction):
-    low = heading[0] + direction[0]
-    high = heading[1] + direction[1]
-    quarter = np.pi / 2
-    k = np.arange(np.ceil(low / quarter), np.floor(high / quarter) + 1)
-    angles = np.concatenate([[low, high], k * quarter])
-    dx = np.concatenate([w * np.cos(angles) for w in way])
-    dy = np.concatenate([w * np.sin(angles) for w in way])
-    x_min, x_max, y_min, y_max = box
-    return np.array([x_min + dx.min(), x_max + dx.max(), y_min + dy.min(), y_max + dy.max()])
 
 # %% right: math and ceil, own interval product
 import math
@@ -136,6 +115,12 @@ def predict(box, heading, way, direction):
     return np.array(
         [box[0] + smallest[0], box[1] + largest[0], box[2] + smallest[1], box[3] + largest[1]]
     )
+
+# %% wrong: a hundred thousand directions, and some nanometres outwards
+def predict(box, heading, way, direction):
+    angles = np.linspace(heading[0] + direction[0], heading[1] + direction[1], 100_000)
+    x, y = np.outer(way, np.cos(angles)), np.outer(way, np.sin(angles))
+    return box + [x.min() - 4e-9, x.max() + 4e-9, y.min() - 4e-9, y.max() + 4e-9]
 
 # %% wrong: the box is changed in place
 def predict(box, heading, way, direction):

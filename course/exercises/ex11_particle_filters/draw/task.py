@@ -178,8 +178,8 @@ DRAW = Task(
             "over many seeds each particle gets n w copies on average",
             _fair,
             why=_why_fair,
-            asks="Between which two numbers is the first position? Is it uniformly distributed "
-            "there?",
+            asks="A particle has n w = 0.3. In which share of the draws must it get a copy? Which "
+            "random number decides about it in your code, and which distribution has it?",
             step=_copies,
         ),
         Law(

@@ -130,7 +130,7 @@ KIDNAPPED = Task(
             _again,
             why=_why(SHARE),
             asks="How many of a thousand random particles agree with the measurement? From which "
-            "poses is this measurement possible?",
+            "positions is this measurement possible, and with which heading at each of them?",
             alone=False,
             step=_ring,
         ),
@@ -190,11 +190,11 @@ KIDNAPPED = Task(
         Diagnosis(
             "too-rare",
             "In the ten steps after the kidnapping too little of the weight is near the robot. "
-            "Particles anywhere in the room are rarely near its pose, so sample them from the "
-            "measurement. Do not store data outside rows and weights, because the check "
-            "alternates between several runs.",
+            "Particles at random poses are rarely near its pose: sample positions and headings "
+            "for which both range and bearing agree with the measurement. Data that you store "
+            "outside rows and weights may belong to another run of the check.",
             lambda i, o: not _again(i, o) and steady(i, o) > STEADY and before(i, o) < STEADY,
-            asks="How many of your injected particles agree with the measurement?",
+            asks="How many of your injected particles agree with both range and bearing?",
         ),
         Diagnosis(
             "deceived",

@@ -175,8 +175,8 @@ LOCALISE = Task(
             "the weighted mean is the Kalman filter's, where that is exact",
             lambda i, o: strays(i, o)[0] < MEAN_BAND,
             why=_why_off,
-            asks="What does the robot do before it measures? Where must the particles be at that "
-            "time?",
+            asks="Where is each particle when the robot measures? By which factor does the scan "
+            "change its weight, if the scan contains several landmarks?",
             step=_worth_given,
         ),
         Law(
@@ -204,7 +204,7 @@ LOCALISE = Task(
             "after a step the effective sample size is at least n/2",
             _in_time,
             why=_why_worth,
-            asks="When do you resample, and which weights do the particles have afterwards?",
+            asks="Which weights do you use for n_eff, and which ones follow resampling?",
             alone=False,
             step=_worth_given,
         ),
@@ -242,6 +242,8 @@ LOCALISE = Task(
             asks="How large is 1/Σ w² of the weights that you return?",
         ),
     ),
+    # not apart: which particles are drawn depends on the weights
+    parts=lambda i, o: {"step": np.concatenate([o["rows"], o["weights"][..., None]], axis=-1)},
     needs=("11-draw",),
     probes=(
         Probe("odometry errors that are correlated", runs.related_wheels, ("mean", "spread")),

@@ -48,16 +48,6 @@ def interval(k, n):
     low, high = beta.ppf([0.025, 0.975], k + 0.5, n - k + 0.5)
     return (0.0 if k == 0 else low), (1.0 if k == n else high)
 
-# %% right: abc formula
-def interval(k, n):
-    z2 = 1.96**2
-    share = k / n
-    a = 1 + z2 / n
-    b = -(2 * share + z2 / n)
-    c = share**2
-    root = np.sqrt(max(b * b - 4 * a * c, 0.0))
-    return max(0.0, (-b - root) / (2 * a)), min(1.0, (-b + root) / (2 * a))
-
 # %% right: roots of the quadratic a p^2 + b p + c, the far one first and the other by Vieta
 def interval(k, n):
     k, n = float(k), float(n)

@@ -124,20 +124,6 @@ def compare(errors_a, errors_b, limit):
     good = [below for below in range(n + 1) if possible(below)]
     return diffs[good[0] - 1], diffs[good[-1]]
 
-# %% right: scipy's binomial and sets of drives
-from scipy.stats import binom
-
-def compare(errors_a, errors_b, limit):
-    diffs = []
-    for a, b in zip(errors_a, errors_b):
-        good = np.logical_and.accumulate((a <= limit) & (b <= limit))
-        if good.any():
-            diffs.append(np.sqrt(np.mean(a[good] ** 2)) - np.sqrt(np.mean(b[good] ** 2)))
-    diffs.sort()
-    n = len(diffs)
-    k = max(k for k in range(n) if k == 0 or binom.cdf(k - 1, n, 0.5) <= 0.025)
-    return diffs[k - 1], diffs[n - k]
-
 # %% wrong: the readings of all drives in one, and the median over these
 def compare(errors_a, errors_b, limit):
     diffs = []

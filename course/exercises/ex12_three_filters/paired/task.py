@@ -164,12 +164,12 @@ PAIRED = Task(
     diagnoses=(
         Diagnosis(
             "between-differences",
-            "Your ends are not among the differences. The number of differences below μ changes "
-            "only where μ passes one of them, so both ends are differences. Neither a Gaussian nor "
-            "a bootstrap is needed.",
+            "Your ends are not among the right differences, one for each run. Compare your "
+            "differences with those above. The number of differences below μ changes only where μ "
+            "passes one of them, so both ends are differences.",
             _between,
-            asks="How many differences lie between the ends of your interval? Can the number "
-            "of differences below μ change between two of them?",
+            asks="Which difference does a run have? How many of them lie between the ends of your "
+            "interval, and can the number below μ change between two of them?",
         ),
     ),
     probes=PROBES,

@@ -160,14 +160,6 @@ def relocalise(start, motions, sights, posts):
 def relocalise(start, motions, sights, posts):
     return np.tile([6.0, 2.0, 0.0], (len(motions), 1))
 
-# %% wrong: returns the start as well: one pose too many
-def relocalise(start, motions, sights, posts):
-    found = [start]
-    for told, seen in zip(motions, sights):
-        pose = corrected(compose(found[-1][None], told), seen, posts)
-        found.append(pose[0])
-    return np.array(found)
-
 # %% wrong: searches along the hall only by whole bays, same heading
 def relocalise(start, motions, sights, posts):
     pose, found = start[None], []

@@ -18,6 +18,7 @@ MOST = 0.08  # largest share of stray readings for full points
 JUMP = 0.5  # [m]; larger than any step and its error
 SOME = 0.03  # share of steps with a jump, above which a filter jumps too often
 TURNED, STILL = 0.8, 0.1  # cosine of a heading, and length of a motion [m], that tell frames apart
+FOLLOWED = 0.15  # of odometry: median difference without jumps, relative; filters 0.11 at most
 KEPT = 0.02  # the solution has mostly 0, at most 0.006
 
 
@@ -56,23 +57,39 @@ def kept(i, o):
     return far[before].mean() <= KEPT
 
 
-def jumps(i, o):
-    """(d, STEPS) bool: where the estimate jumps, compared with odometry."""
-    before = np.concatenate([i["start"][:, None], o["poses"][:, :-1]], axis=1)
-    off = between(before, o["poses"]) - i["motions"]
-    return np.hypot(off[..., 0], off[..., 1]) > JUMP
-
-
-def _of_another_frame(i, o):
-    """Whether most changes of the pose before the kidnapping are rather the motions without their
-    rotation into the frame of the hall, of those that differ much."""
+@once
+def _changes(i, o):
+    """(3, d, STEPS) lengths of the motions, and of the differences of the pose's changes from the
+    motions, and from the motions without their rotation into the frame of the hall."""
     before = np.concatenate([i["start"][:, None], o["poses"][:, :-1]], axis=1)
     motions = i["motions"][..., :2]
     own = between(before, o["poses"])[..., :2] - motions
-    unturned = (o["poses"] - before)[..., :2] - motions
-    size, own, unturned = (np.hypot(v[..., 0], v[..., 1]) for v in (motions, own, unturned))
-    far = strayed(i, o)[1] & (np.cos(before[..., 2]) < TURNED) & (size > STILL)
-    return far.any() and np.mean(unturned[far] < own[far]) > 0.6
+    return np.linalg.norm([motions, own, (o["poses"] - before)[..., :2] - motions], axis=-1)
+
+
+def jumps(i, o):
+    """(d, STEPS) bool: where the estimate jumps, compared with odometry."""
+    return _changes(i, o)[1] > JUMP
+
+
+def _before(i, o):
+    """:func:`_changes` (3, n) before the kidnapping, where the two frames differ much."""
+    heading = np.column_stack([i["start"][:, 2], o["poses"][:, :-1, 2]])
+    turned = (np.cos(heading) < TURNED) & (_changes(i, o)[0] > STILL)
+    return _changes(i, o)[:, strayed(i, o)[1] & turned]
+
+
+def _of_another_frame(i, o):
+    """Whether most changes of the pose are rather the motions of another frame."""
+    _, own, unturned = _before(i, o)
+    return own.size and np.mean(unturned < own) > 0.6
+
+
+def _follows(i, o):
+    """Whether the estimate follows odometry where it does not jump, or hardly any such step is."""
+    size, own, _ = _before(i, o)
+    off = (own / size)[own <= JUMP]
+    return off.size < 20 or np.median(off) < FOLLOWED
 
 
 def _jumps_before(i, o):
@@ -196,12 +213,20 @@ RELOCALISE = Task(
             "0, 0]: which coordinate changes?",
         ),
         Diagnosis(
+            "not-moved",
+            "Your estimate does not follow the odometry before the kidnapping, even where it does "
+            "not jump. Compose each pose that you store with the motion of each step.",
+            lambda i, o: not kept(i, o) and lost(i, o) < 0.9 and not _follows(i, o),
+            asks="Which of your poses do you move by a motion, in which frame, and when?",
+        ),
+        Diagnosis(
             "jumps",
-            "Your estimate jumps before the kidnapping: a scan with some false measurements is "
-            "enough. How much better must another pose explain the scans, and how many scans?",
+            "Your estimate jumps before the kidnapping. Do all poses that you compare move with "
+            "the robot, by compose? Then a scan with some false measurements is enough for a jump: "
+            "how much better must another pose explain the scans, and how many scans?",
             lambda i, o: not kept(i, o) and lost(i, o) < 0.9 and _jumps_before(i, o),
-            asks="How many false measurements does a scan have on which your estimate jumps? "
-            "How many scans must disagree before it jumps?",
+            asks="How do your poses change by a motion? How many scans, with how many false "
+            "measurements, must disagree before your estimate jumps?",
         ),
         Diagnosis(
             "wrong-bay",

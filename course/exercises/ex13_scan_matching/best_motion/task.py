@@ -105,7 +105,7 @@ BEST_MOTION = Task(
             want,
             parts={"result": TURN},
             asks="Rotate three points by +90°, without noise. Which rotation does your formula "
-            "give? Which of the two sets of points must come first in it?",
+            "give? With noise, on which of the points does it depend, and how much on each?",
             step=_on_the_way,
         ),
         Law(

@@ -65,14 +65,6 @@ def icp(source, target, T, rounds):
         k += 1
     return T
 
-# %% right: each round fits the original source anew, so T is replaced and not multiplied
-def icp(source, target, T, rounds):
-    T = np.array(T, dtype=float)
-    for _ in range(rounds):
-        _, rows = nearest(carry(T, source), target)
-        T = best_motion(source, target[rows])
-    return T
-
 # %% right: pairs by brute force, moved by steps
 def icp(source, target, T, rounds):
     at = carry(T, source.astype(float))

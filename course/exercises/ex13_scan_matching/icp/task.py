@@ -9,17 +9,19 @@ from classroom.exercises.task import Probe, Task
 from course.exercises.ex13_scan_matching.calls import CALLS
 from course.exercises.ex13_scan_matching.motions import carried, looks, matched, motion
 
+SIZES = np.array([1, 1e-3])  # along the small wall all steps are small, but their sum is not
 SOME = 3  # iterations in which a wrong step does not diverge yet and rounding errors stay small
 
 
 def sliding(rng, rounds, n=60):
-    """A long wall with many points, along which the source converges slowly."""
+    """Walls with many points, along which the source converges slowly, of the sizes SIZES."""
     inputs, end = looks(rng, rounds), np.column_stack([np.full(6, 2.0), rng.uniform(0, 1, 6)])
     for name in ("source", "target"):
         walls = [rng.uniform((-2, -0.02), (2, 0.02), (n, 2)) for _ in rounds]
-        inputs[name] = np.array([rng.permutation(np.vstack([wall, end])) for wall in walls])
+        walls = np.array([rng.permutation(np.vstack([wall, end])) for wall in walls])
+        inputs[name] = SIZES[:, None, None] * walls
     inputs["target"] = carried(inputs["T"], inputs["target"])
-    return inputs | {"T": inputs["T"] @ motion(-0.4, 0.05, 0.03)}
+    return inputs | {"T": inputs["T"] @ motion(-0.4 * SIZES, 0.05 * SIZES, 0.03)}
 
 
 def judged_at(law, asked):

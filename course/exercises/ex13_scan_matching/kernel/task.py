@@ -6,7 +6,7 @@ from classroom.exercises.correctness_laws import equals
 from classroom.exercises.references import Reference
 from classroom.exercises.task import Probe, Task
 from course.exercises.ex13_scan_matching.calls import CALLS
-from course.exercises.ex13_scan_matching.icp.task import by_rounds, judged_at, sliding
+from course.exercises.ex13_scan_matching.icp.task import SIZES, by_rounds, judged_at, sliding
 from course.exercises.ex13_scan_matching.motions import (
     carried,
     first_pairs,
@@ -23,7 +23,7 @@ def crowded(rng, rounds, sizes=(36, 48), people=14, off=2.0, c=(0.1, 0.4)):
 
 
 def _sliding(rng):
-    return sliding(rng, [10, 14]) | {"c": rng.uniform(0.1, 0.3, 2)}
+    return sliding(rng, [10, 14]) | {"c": SIZES * rng.uniform(0.1, 0.3, 2)}
 
 
 def _of_length_zero(rng):

@@ -56,9 +56,10 @@ def _corridors(rng, poses):
 
 
 def _loops(rng, true, good, gang, stray):
-    kinds = [_true_loops(rng, true, good), _gang(rng, true, gang), _strays(rng, true, stray)]
+    kinds = [_gang(rng, true, gang), _true_loops(rng, true, good), _strays(rng, true, stray)]
     pairs, seen = (np.concatenate(arrays) for arrays in zip(*kinds, strict=True))
-    order = rng.permutation(len(pairs))
+    # who accepts loops one by one in the given order begins with the gang
+    order = np.append(rng.permutation(gang), gang + rng.permutation(len(pairs) - gang))
     seen = seen + EYES * rng.standard_normal(seen.shape)
     seen[:, 2] = wrap(seen[:, 2])
     return pairs[order], seen[order]

@@ -74,19 +74,6 @@ def range_edge(x_i, x_j, r, a_i, a_j):
     q = np.hypot(*d)
     return q - r, np.append(-d / q, 0.0), np.append(d / q, 0.0)
 
-# %% right: in i's frame, by chain rule with 2 x 3 matrices
-def range_edge(x_i, x_j, r, a_i, a_j):
-    def place(x, a):
-        c, s = np.cos(x[2]), np.sin(x[2])
-        R, dR = np.array([[c, -s], [s, c]]), np.array([[-s, -c], [c, -s]])
-        return x[:2] + R @ a, np.column_stack([np.eye(2), dR @ a])
-
-    p_i, G_i = place(x_i, a_i)
-    p_j, G_j = place(x_j, a_j)
-    d = p_j - p_i
-    length = np.linalg.norm(d)
-    return float(length - r), -(d @ G_i) / length, (d @ G_j) / length
-
 # %% right: complex numbers, direction as an angle
 def range_edge(x_i, x_j, r, a_i, a_j):
     arm_i = complex(*a_i) * np.exp(1j * x_i[2])

@@ -57,23 +57,6 @@ def compare_versions(worlds_a, errors_a, worlds_b, errors_b):
         verdict = "A"
     return 10**low, 10**high, verdict, min(above, 1000)
 
-# %% right: the interval by SciPy's one-sample test, the number step by step
-def compare_versions(worlds_a, errors_a, worlds_b, errors_b):
-    from scipy.stats import sem, t, ttest_1samp
-    position = {int(world): k for k, world in enumerate(worlds_b)}
-    logs = []
-    for world, error in zip(worlds_a, errors_a):
-        if int(world) in position:
-            logs.append(np.log(error) - np.log(errors_b[position[int(world)]]))
-    interval = ttest_1samp(logs, 0).confidence_interval()
-    sigma = sem(logs) * np.sqrt(len(logs))
-    count = 2
-    while count < 1000 and abs(np.mean(logs)) / (sigma / np.sqrt(count)) <= t.ppf(0.975, count - 1):
-        count += 1
-    if interval.low <= 0 <= interval.high:
-        return np.exp(interval.low), np.exp(interval.high), "cannot tell", count
-    return np.exp(interval.low), np.exp(interval.high), "A" if np.mean(logs) < 0 else "B", count
-
 # %% wrong: a percentile bootstrap of the mean
 def compare_versions(worlds_a, errors_a, worlds_b, errors_b):
     _, i, j = np.intersect1d(worlds_a, worlds_b, return_indices=True)
