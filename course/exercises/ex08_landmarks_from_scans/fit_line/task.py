@@ -112,8 +112,8 @@ FIT_LINE = Task(
             "no other line has a smaller sum of squared distances",
             _is_least,
             want=_wanted,
-            asks="Through which point does the best line always go? From which point do you "
-            "measure the deviations of the points?",
+            asks="In which direction do you measure the distance of a point from the line? Has "
+            "your α the direction of the line, or that of its normal?",
             step=_on_the_way,
         ),
         Law(

@@ -20,7 +20,7 @@ EACH, DRAWN = 3, 300
 def inputs(rng):
     """Scenes in which the nearest walls are right, or not compatible, or too many."""
     given = scenes(rng, DRAWN)
-    given["z"][::2, 2, 0] += 9  # of no wall
+    given["z"][::2, 2, 0] += 2 * np.pi  # of no wall: ranges are not to be wrapped
     given = clear(given)
     kinds = _kinds(given).values()
     return _rows(given, np.concatenate([np.flatnonzero(kind)[:EACH] for kind in kinds]))
@@ -210,10 +210,12 @@ def _compatible(given, out):
 
 
 def _covariance(given):
-    """S of the nearest pairs, block by block."""
-    near = _nearest(given)[:1].astype(int)
-    H = _at(given["H"][:1], np.zeros((1, 1), dtype=int), near)[0]
-    return {"H_i P H_jᵀ of two pairs": H[:1] @ given["P"][0] @ H[1:2].mT} if len(H) > 1 else {}
+    """S of the first scene's best pairs."""
+    pairs = want(given)["pairs"][0].astype(int)
+    H = given["H"][0][pairs[pairs >= 0]]
+    rows = H.reshape(2 * len(H), given["P"].shape[1])
+    S = rows @ given["P"][0] @ rows.T + np.kron(np.eye(len(H)), given["R"][0])
+    return {"S of the right pairs": S} if len(H) else {}
 
 
 def _counts(given):
@@ -243,8 +245,8 @@ JOINT = Task(
             "where two are compatible",
             lambda given, out: _own(given, out)[1],
             why=_why_distance,
-            asks="Stack the innovations of two pairs. Which errors do the first and the second "
-            "have in common, and where in S does this show?",
+            asks="Stack the innovations of two pairs. Which numbers must be wrapped? Which errors "
+            "do the pairs have in common, which not, and where in S does each of them stand?",
             step=_covariance,
         ),
         Law(

@@ -249,33 +249,6 @@ def find_pillar(points, band, largest, needed, tries, rng):
     c, r = fit_circle(points[winner])
     return c, r, winner
 
-# %% wrong: circle through the first three points only
-def fit_circle(points):
-    A = np.column_stack([2 * points[:3], np.ones(3)])
-    cx, cy, d = np.linalg.solve(A, np.sum(points[:3] ** 2, axis=1))
-    return np.array([cx, cy]), np.sqrt(d + cx**2 + cy**2)
-
-
-def find_pillar(points, band, largest, needed, tries, rng):
-    n = len(points)
-    if n < 3:
-        return None
-    winner, votes = None, 0
-    for _ in range(tries):
-        three = points[rng.permutation(n)[:3]]
-        if abs(np.linalg.det(np.column_stack([three, np.ones(3)]))) < 1e-9:
-            continue
-        c, r = fit_circle(three)
-        if r > largest:
-            continue
-        inside = np.abs(np.linalg.norm(points - c, axis=1) - r) <= band
-        if inside.sum() > votes:
-            winner, votes = inside, inside.sum()
-    if votes < needed:
-        return None
-    c, r = fit_circle(points[winner])
-    return c, r, winner
-
 # %% wrong: geometric least squares in place of the equation's
 def start_circle(points):
     A = np.column_stack([2 * points, np.ones(len(points))])

@@ -95,6 +95,13 @@ def _at_the_edge(rng):
     return clouds(rng, [(24, 0, 16)] * 4, near=(0.8 * BAND, 1.2 * BAND))
 
 
+def _at_the_limit(rng):
+    # hypotheses are below and above `largest`, the refitted circle is above
+    found = clouds(rng, [(30, 8, 0)] * 2)
+    outputs = {"inside": most(found)}
+    return found | {"largest": np.array([r for _, _, r in _refits(found, outputs)]) - 1e-4}
+
+
 def _by_turns(rng):
     # no two of the pillar's readings are neighbours
     found = clouds(rng, [(24, 24, 0)] * 2, 230)
@@ -221,7 +228,8 @@ PILLAR = Task(
             2,
             "inside is True for all readings of the pillar, and for no others",
             _found,
-            asks="Which hypotheses do you reject? Which of the other hypotheses is the best?",
+            asks="Which hypotheses do you reject, and which of the others is the best? How far "
+            "from its circle may an inlier be?",
             after=("circle",),
             step=_inliers,
         ),
@@ -245,6 +253,7 @@ PILLAR = Task(
             lambda rng: clouds(rng, [(24, 26, 0)], 230),
         ),
         Probe("a pillar and a wall whose readings alternate", _by_turns, ("inside", "refitted")),
+        Probe("a pillar of the largest radius", _at_the_limit, ("inside", "refitted")),
         Probe("readings near the limits of the band", _at_the_edge, ("refitted",)),
         Probe(
             "a thin pillar",

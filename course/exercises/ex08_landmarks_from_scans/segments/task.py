@@ -134,8 +134,9 @@ SEGMENTS = Task(
         ),
         Diagnosis(
             "missed",
-            "Many readings of walls have the label −1. A sample with an outlier has few inliers. "
-            "Use more trials, or samples of fewer readings, and a band that grows with the noise.",
+            "Many readings of walls have the label −1. If you draw samples, one with an outlier "
+            "has few inliers: use more trials, samples of fewer readings, or a band that grows "
+            "with the noise. Other methods must also join the parts of one wall.",
             _over(_unlabelled, 0.25),
             asks="Plot the readings with the label −1. Which of them lie on a wall, and how "
             "far are they from your nearest line?",
