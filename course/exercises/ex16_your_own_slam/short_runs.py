@@ -13,6 +13,7 @@ from course.exercises.ex16_your_own_slam.calls import (
     RANGE_MIN,
     SHORT_RANGE,
     integrate_odometry,
+    odometry_poses,
 )
 from slamlab.geometry import between, wrap
 from slamlab.simulation.range_scanners import Scanner
@@ -54,7 +55,7 @@ def corridor(rng, steps=24, bend=2.5, lost=(), runs=2, scale=0.0, bad=BAD):
     while True:
         errors = ODOMETRY * rng.standard_normal((runs // 2, *truth.shape)) + [scale * STEP, 0, 0]
         inputs = _measured(rng, world, truth, errors, lost)
-        if off_at_the_end(inputs, wheels(inputs)).min() > bad:
+        if off_at_the_end(inputs, odometry_poses(inputs)).min() > bad:
             return inputs
 
 
@@ -80,18 +81,13 @@ def ring(rng, around=(9.0, 6.0), beyond=4.0, blind=12):
         errors = [0.008, 0.004, 0.014] * rng.standard_normal(truth.shape)  # [m, m, rad]
         errors[lost, 2] = turned / blind  # a heading error of either sign
         inputs = _measured(rng, world, truth, errors[None], lost, SHORT_SIGHTED)
-        if off_at_the_end(inputs, wheels(inputs)).min() > 0.3:
+        if off_at_the_end(inputs, odometry_poses(inputs)).min() > 0.3:
             return inputs
 
 
 def route(inputs):
     """Return (n, 3) the true poses, relative to the first pose."""
     return integrate_odometry(inputs["odometry"].mean(axis=0))
-
-
-def wheels(inputs):
-    """Return the poses of odometry of each run."""
-    return [integrate_odometry(odometry) for odometry in inputs["odometry"]]
 
 
 def length(inputs):

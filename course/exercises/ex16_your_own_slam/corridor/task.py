@@ -5,7 +5,7 @@ import numpy as np
 from classroom.exercises.correctness_laws import Diagnosis, Law
 from classroom.exercises.task import Task
 from course.exercises.ex16_your_own_slam import short_runs
-from course.exercises.ex16_your_own_slam.calls import CALLS
+from course.exercises.ex16_your_own_slam.calls import CALLS, odometry_poses
 
 HALF, FAR = 0.5, 0.4  # share of the error of odometry [1]; error [m]
 SCALE = 0.05  # scale error of odometry: a correct heading alone is not enough [1]
@@ -14,7 +14,7 @@ LOST = 7  # index of the reading whose scan is lost
 
 def ends(inputs, outputs):
     """Return (2,), (2,) errors of the last poses of each run, and those of odometry [m]."""
-    judged = outputs["trajectory"], short_runs.wheels(inputs)
+    judged = outputs["trajectory"], odometry_poses(inputs)
     return [short_runs.off_at_the_end(inputs, t) for t in judged]
 
 

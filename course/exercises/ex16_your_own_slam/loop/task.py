@@ -5,7 +5,7 @@ import numpy as np
 from classroom.exercises.correctness_laws import Diagnosis, Law
 from classroom.exercises.task import Task
 from course.exercises.ex16_your_own_slam import short_runs
-from course.exercises.ex16_your_own_slam.calls import CALLS
+from course.exercises.ex16_your_own_slam.calls import CALLS, odometry_poses
 
 MET, CARRIED = 0.1, 0.16  # [m]
 
@@ -72,7 +72,7 @@ LOOP = Task(
             "far-off",
             "Your SLAM is far worse than odometry. If it closes a loop: does the constraint state "
             "the pose of the later scan in the frame of the earlier one, and was the match right?",
-            lambda i, o: (met(i, o) > 2 * met(i, {"trajectory": short_runs.wheels(i)})).any(),
+            lambda i, o: (met(i, o) > 2 * met(i, {"trajectory": odometry_poses(i)})).any(),
             asks="How large is the residual of each constraint before and after the optimisation?",
         ),
         Diagnosis(

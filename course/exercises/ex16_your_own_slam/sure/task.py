@@ -5,7 +5,7 @@ import numpy as np
 from classroom.exercises.correctness_laws import Diagnosis, Law
 from classroom.exercises.task import Task
 from course.exercises.ex16_your_own_slam import short_runs
-from course.exercises.ex16_your_own_slam.calls import CALLS
+from course.exercises.ex16_your_own_slam.calls import CALLS, odometry_poses
 from slamlab.evaluation.consistency import nees
 from slamlab.geometry import compose, wrap
 
@@ -52,9 +52,9 @@ def _truth(inputs, outputs):
 
 def _turned(inputs, outputs, back=False):
     """Return the covariances, turned from the robot frame to that of pose, or back."""
-    c, s = np.cos(h := _truth(inputs, outputs)[..., 2]), np.sin(h)
-    R = np.array([[c, -s, 0 * c], [s, c, 0 * c], [0 * c, 0 * c, 0 * c + 1]])
-    R = np.moveaxis(R, (0, 1), (-1, -2) if back else (-2, -1))
+    heading = _truth(inputs, outputs)[..., 2] * (-1 if back else 1)
+    c, s, zero = np.cos(heading), np.sin(heading), np.zeros_like(heading)
+    R = np.array([[c, -s, zero], [s, c, zero], [zero, zero, zero + 1]]).transpose(2, 3, 0, 1)
     return R @ outputs["covariance"] @ R.swapaxes(-1, -2)
 
 
@@ -64,8 +64,9 @@ def _along(inputs, outputs):
 
 
 def _in_robot_frame(inputs, outputs):
-    turned = mean_nees(inputs, outputs | {"covariance": _turned(inputs, outputs)})[1]
-    return turned < HIGHS[1] < (last := mean_nees(inputs, outputs)[1]) and turned < last / 3
+    turned = outputs | {"covariance": _turned(inputs, outputs)}
+    last, of_turned = (mean_nees(inputs, each)[1] for each in (outputs, turned))
+    return of_turned < HIGHS[1] < last and of_turned < last / 3
 
 
 def _growth(outputs):
@@ -95,7 +96,7 @@ def _fits(inputs, outputs):
 
 def _share(inputs, outputs):
     """Return the mean position error before the scans are lost, relative to odometry's [1]."""
-    judged = outputs["pose"], short_runs.wheels(inputs)
+    judged = outputs["pose"], odometry_poses(inputs)
     mine, theirs = (short_runs.offs(inputs, poses)[:RUNS, BEFORE] for poses in judged)
     return mine.mean() / theirs.mean()
 
