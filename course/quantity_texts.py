@@ -31,8 +31,6 @@ def place(hit, visible) -> str:
         number = name.partition(" ")[2]
         which = f"the {ORDINALS[int(number) - 1]} value" if number else "the value"
         return f"{which} that `{function}` returns"
-    if name in ("if", "for"):
-        return {"if": "a condition of your code", "for": "a loop of your code"}[name]
     known = set(re.findall(r"[^\W\d]\w*", name)) <= visible
     return f"the computation of `{name}`" if known else ""
 

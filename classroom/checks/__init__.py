@@ -178,9 +178,8 @@ def _check(task_id, namespace):
     namespace.setdefault("hint", hint)  # the verdict may offer it
     exercise = catalogue.exercise(task.id[:2])
     verdict = exercise.verdicts(judge_one, only=[task.id])[task.id]
-    if found := find_forbidden_import(task.call.functions, namespace, exercise.answers):
-        problem = f"{found}, which solves this exercise and is unavailable during grading"
-        verdict = task.failed("borrowed", problem)
+    if found := find_forbidden_import(task.call.functions, namespace, exercise):
+        verdict = task.failed("borrowed", found)
     if error := describe_syntax_error(task.call.functions, _shell()):
         print(f"{error}\n")
     if printed.get(task.id):

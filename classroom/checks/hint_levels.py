@@ -43,8 +43,8 @@ def describe_next_hint(task, verdict) -> str:
     if law is None:
         return "asks a question to begin with" if not level and verdict.problem else ""
     if level == 0:
-        known = verdict.question is not None
-        return f"asks about {'a mistake that the check recognised' if known else 'the first law'}"
+        known = "a mistake that the check recognised"
+        return f"asks about {'the first broken law' if verdict.question is None else known}"
     kinds = [_STEP] * bool(law.step) + [_NAMED] * bool(verdict.hint)
     return f"shows {kinds[level - 1]}" if level <= len(kinds) else ""
 
@@ -115,11 +115,14 @@ def _rungs(task, verdict, case):
     if verdict.hint:
         yield _NAMED, failing_case_text.wrapped(f"Hint: {verdict.hint}")
     elif case.law is UNCHANGED:
-        yield _NAMED, "Hint: Work on a copy of the argument, such as x = x.copy()."
+        yield _NAMED, "Hint: Work on a copy of the argument, such as x = x.copy() or list(ids)."
 
 
 def _begin(task, *lines):
-    return failing_case_text.wrapped("\n".join([*lines, _question_to_begin(task)]))
+    level, last = _shown_levels.get((task.id, "begin"), (0, None))
+    _shown_levels[task.id, "begin"] = level + 1, lines
+    shown = () if len(lines) == 1 and lines == last else lines  # an error's message once
+    return failing_case_text.wrapped("\n".join([*shown, _question_to_begin(task, level)]))
 
 
 def _slowest(sets, began, end):
@@ -129,12 +132,9 @@ def _slowest(sets, began, end):
     return f"Your functions take longest with {name}: {spent.max():.2g} s."
 
 
-def _question_to_begin(task):
+def _question_to_begin(task, level):
     """Return the next question for a function that returns no answer yet."""
     questions = list(dict.fromkeys([*task.begins, *(law.asks for law in task.laws if law.asks)]))
-    key = task.id, "begin"
-    level, _ = _shown_levels.get(key, (0, None))
-    _shown_levels[key] = level + 1, None
     if not questions:
         return f"The first law is: {task.laws[0].says}\n{_BEGIN}"
     asked = questions[level % len(questions)]

@@ -14,7 +14,11 @@ from classroom.exercises import catalogue
 from classroom.exercises.correctness_laws import Mistake
 from classroom.exercises.function_calls import StudentError
 from classroom.exercises.function_calls.changed_arguments import CHANGED
-from classroom.exercises.mistake_families import FAMILY_QUESTIONS, MISTAKE_FAMILIES
+from classroom.exercises.mistake_families import (
+    FAMILY_HINT,
+    FAMILY_QUESTIONS,
+    MISTAKE_FAMILIES,
+)
 from classroom.exercises.outputs import all_checked_outputs
 
 SIZE = 4  # numbers of a fingerprint
@@ -51,7 +55,8 @@ class Table:
         if not family:
             return RecognisedMistake(self.names[label], hint, False, asks=asks or question)
         if place:
-            hint, asks = f"{hint} It is in {place}.", f"Look at {place}. {asks}"
+            hint, asks = f"{hint} in {place}", f"Look at {place}. {asks}"
+        hint = FAMILY_HINT.format(hint)
         asks = question or (asks if place else "")
         return RecognisedMistake(self.names[label], hint, True, asks=asks)
 

@@ -1,33 +1,32 @@
 """Families of small mistakes without a specific name (mutation operators), and their hints."""
 
+FAMILY_HINT = (
+    "Your numbers are exactly those of a correct solution with {}. Your code may get these numbers "
+    "in another way."
+)
 MISTAKE_FAMILIES = {
-    "sign": "With one + in place of a −, or one − in place of a +, a correct solution gives "
-    "exactly your numbers.",
-    "factor": "With one constant larger or smaller, or with a sum in place of a mean, a correct "
-    "solution gives exactly your numbers.",
-    "square": "Without a square or a square root, or with one too many, a correct solution gives "
-    "exactly your numbers. Variances are σ², and C, R and P contain variances.",
-    "transpose": "With one matrix transposed, or without a transpose, a correct solution gives "
-    "exactly your numbers. The shape of a square matrix does not reveal this.",
-    "order": "With two factors, the sides of a difference or two arguments exchanged, a correct "
-    "solution gives exactly your numbers.",
-    "trigonometry": "With a sine in place of a cosine or vice versa, or a function in place of "
-    "its inverse, a correct solution gives exactly your numbers.",
-    "degrees": "Degrees and radians are mixed: NumPy's functions take and return radians.",
-    "wrap": "An angle is not wrapped where it should be: 179° and −179° differ by 2°.",
-    "axis": "A sum, mean or stack is taken along the wrong axis, or along all axes.",
-    "stale": "If one line uses a value from before a change, or from after it, a correct solution "
-    "gives exactly your numbers.",
-    "missing": "Without one term, factor or line, a correct solution gives exactly your numbers.",
-    "guard": "With a wrong condition (<, ≤, and, or, not, both sides equal), a correct solution "
-    "gives exactly your numbers.",
-    "index": "With an integer off by one, a correct solution gives exactly your numbers.",
-    "inverse": "With a matrix in place of its inverse, or a fraction upside down, a correct "
-    "solution gives exactly your numbers.",
-    "name": "With one variable in place of another, a correct solution gives exactly your numbers.",
-    "twice": "With one line or one factor too many, a correct solution gives exactly your numbers.",
+    "sign": "one + in place of a −, or one − in place of a +",
+    "factor": "one constant too large or too small, or a sum in place of a mean",
+    "square": "one square or square root too many, or without one (variances are σ²; C, R and P "
+    "contain variances)",
+    "transpose": "one matrix transposed, or without a transpose (the shape of a square matrix does "
+    "not reveal this)",
+    "order": "two factors, two arguments or the sides of a difference exchanged",
+    "trigonometry": "a sine in place of a cosine or vice versa, or a function in place of its "
+    "inverse",
+    "degrees": "degrees in place of radians or vice versa (NumPy's functions take and return "
+    "radians)",
+    "wrap": "one angle that is not wrapped where it should be (179° and −179° differ by 2°)",
+    "axis": "a sum, mean or stack along another axis, or along all axes",
+    "stale": "a value from before a change in place of the value after it, or vice versa",
+    "missing": "one term, factor or line missing",
+    "guard": "another condition (<, ≤, and, or, not, or both sides equal)",
+    "index": "an integer off by one",
+    "inverse": "a matrix in place of its inverse, or a fraction upside down",
+    "name": "one variable in place of another",
+    "twice": "one line or one factor too many",
 }
-"""Hints by the name of their family; ``course.mutation_operators`` makes the changes."""
+"""What is wrong, by the name of the family; ``course.mutation_operators`` makes the changes."""
 
 FAMILY_QUESTIONS = {
     "sign": "Which of its terms must be added, and which must be subtracted?",

@@ -64,7 +64,8 @@ class ReferenceCalls:
             return values
         except Exception:  # a student's arguments may be anything
             shapes = ", ".join(str(array.shape) for array in given.values())
-            raise ValueError(f"{name} cannot be called with arguments of shapes {shapes}") from None
+            problem = f"{name} has no result for these arguments, of shapes {shapes}: are their"
+            raise ValueError(f"{problem} shapes right, and each P positive definite?") from None
 
 
 NO_REFERENCES = ReferenceCalls(())

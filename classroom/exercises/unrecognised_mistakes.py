@@ -40,9 +40,8 @@ NEAR_BY = (
     "that stops early."
 )
 ONLY_THERE = (
-    "Everything else is right: the mistake shows only with {}. What is special in this case? "
-    "Either a line does not handle this case, or a line is always wrong and the other inputs do "
-    "not reveal it."
+    "Your answers are wrong only with {}. What is special in this case? Perhaps no line of your "
+    "code handles it, or a wrong line changes the result in this case only."
 )
 ONE_SIDE = (
     "Your answers to the random inputs are wrong exactly where {} is {}. Which line should treat "
@@ -117,15 +116,17 @@ def _compared(pairs):
     if len(got) < FEW:
         return None
     ratio = np.vdot(want, got) / max(np.vdot(want, want), ROUNDING)
+    far = got.any() and abs(ratio - 1) > NEAR  # otherwise perhaps by samples
     step, later = _step_of(got - want), min(map(_first_wrong, wrong))
+    flags = np.isin([got, want], (-1, 0, 1)).all()
     for name, holds, text in (
         ("turned", turned.all(), TURNED),
         ("transposed", all(_transposed(*pair) for pair in pairs), TRANSPOSED),
-        ("negative", _same(got, -want).all(), NEGATIVE),
+        ("negative", not flags and _same(got, -want).all(), NEGATIVE),
         ("half-turned", _turned(got, want, np.pi).all(), HALF_TURNED),
         ("zero", not got.any(), ZERO),
-        ("scaled", got.any() and _same(got, ratio * want).all(), SCALED.format(f"{ratio:.6g}")),
-        ("shifted", _same(got - want, (got - want)[0]).all(), SHIFTED),
+        ("scaled", far and _same(got, ratio * want).all(), SCALED.format(f"{ratio:.6g}")),
+        ("shifted", not flags and _same(got - want, (got - want)[0]).all(), SHIFTED),
         ("multiple", step >= FEW, MULTIPLE.format(step)),
         ("reordered", all(_reordered(*pair) for pair in pairs), REORDERED),
         ("later", later > 0, LATER.format(later)),

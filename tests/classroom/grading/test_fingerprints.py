@@ -11,6 +11,7 @@ from classroom.exercises import fingerprints
 from classroom.exercises.correctness_laws import Diagnosis
 from classroom.exercises.fingerprints import CLOSE, RIGHT, Table, fingerprint, of_answers
 from classroom.exercises.function_calls.run_and_pack import call_on_sets
+from classroom.exercises.mistake_families import FAMILY_HINT
 from classroom.exercises.run_task import run_and_explain
 from classroom.exercises.task import OPEN_SEED, Probe
 from tests.classroom.grading import fake
@@ -152,13 +153,13 @@ def test_the_hint_of_a_family_names_the_quantity_if_all_programs_agree_on_it(kno
         return mistake.hint, mistake.asks
 
     in_x = "Look at the computation of `x`. which factor?"
-    assert found(TWICE_X) == ("hint on factor It is in the computation of `x`.", in_x)
-    in_y = "hint on factor It is in the computation of `y`."
+    assert found(TWICE_X) == (FAMILY_HINT.format("hint on factor in the computation of `x`"), in_x)
+    in_y = FAMILY_HINT.format("hint on factor in the computation of `y`")
     assert found(TWICE_Y) == (in_y, "where does y point?")
-    assert found(MINUS) == ("hint on sign", "")
+    assert found(MINUS) == (FAMILY_HINT.format("hint on sign"), "")
     twice = turning(lambda x, y, v, a: (2 * x, y))
     known(*PROGRAMS, (3, twice))  # in an unknown quantity
-    assert found(TWICE_X) == ("hint on factor", "")
+    assert found(TWICE_X) == (FAMILY_HINT.format("hint on factor"), "")
     known(*PROGRAMS, (2, twice))
     assert found(TWICE_X) == ("hint on half turned", "which half?")
 

@@ -127,9 +127,9 @@ def test_an_answer_that_cannot_be_judged_gets_questions_to_begin(
     monkeypatch.setattr(fake, "EXERCISE", dataclasses.replace(fake.EXERCISE, tasks=(task,)))
     texts = [output_of(function) for _ in range(4)]
     asked = ["Which way?", "How far?", "Where does the point (1, 0) go?", "Which way?"]
-    for text, question in zip(texts, asked, strict=True):
-        assert text.startswith(begins)
-        assert f"\nA question to begin with: {question}\n" in text
+    for k, (text, question) in enumerate(zip(texts, asked, strict=True)):
+        assert (begins in text) == (k == 0), "the message is shown once"
+        assert f"A question to begin with: {question}\n" in text
         assert "Call hint again for another question.\n" in text
         ends = "More hints follow once your functions return an answer that can be judged.\n"
         assert text.endswith(ends)
@@ -219,7 +219,7 @@ def test_a_check_offers_what_hint_has_not_shown_yet(capsys):
     asks = "asks about a mistake that the check recognised."
     shows = ["shows a step on the way."], ["shows a sentence about your answer."]
     assert found == [[asks], *shows, []]
-    assert offered(turn=lambda v, angle: 2 * turn(v, angle)) == ["asks about the first law."]
+    assert offered(turn=lambda v, angle: 2 * turn(v, angle)) == ["asks about the first broken law."]
     assert offered() == ["asks a question to begin with."]
     names = {"check": check, "turn": turn, "hint": 7}
     eval("check('99-turn')", names)

@@ -110,7 +110,7 @@ def test_an_error_pattern_states_which_probe_alone_is_wrong_and_how():
         assert (name, "only with no angle." in hint) == ("only there", True)
         assert message in hint and "large" not in hint
     both = report(lambda v, a: right(v, a) + (a in (0, 1)) * v[0] ** 2)[1]
-    assert "shows only with no angle and with large vectors. What" in both
+    assert "only with no angle and with large vectors. What" in both
 
 
 def test_up_to_three_kinds_of_input_are_named_and_more_are_counted():
@@ -204,5 +204,5 @@ def test_for_an_empty_output_only_its_position_is_reported():
     task = dataclasses.replace(TURN, laws=(all_of,), probes=(Probe("no vectors", no_rows),))
     sets = task.draw_inputs(OPEN_SEED)
     answers = {name: {"result": _turned(of)["result"]} for name, of in sets.items()}
-    assert describe_error_pattern(task, sets, answers).hint.startswith("Everything else is right")
-    assert "no vectors" in describe_error_pattern(task, sets, answers).hint
+    hint = describe_error_pattern(task, sets, answers).hint
+    assert hint.startswith("Your answers are wrong only with no vectors")
