@@ -23,11 +23,11 @@ def with_links(source, last):
     cells = [*source.cells, *last]
     lesson, exercise, following = _neighbours(source.path)
     if source.kind == "exercise":
-        cells[0] = _longer(cells[0], _line(("Lesson: ", lesson, "../notebooks/")))
-        line = _line(
-            ("Back to lesson ", lesson, "../notebooks/"),
-            ("on to lesson ", following, "../notebooks/"),
-        )
+        top = "Lesson: ", lesson, "../notebooks/"
+        back, on = ("Back to lesson ", *top[1:]), ("on to lesson ", following, "../notebooks/")
+        if not _names(cells[0], top):
+            cells[0] = _longer(cells[0], _line(top))
+        line = _line(back) if any(_names(cell, on) for cell in cells) else _line(back, on)
         return [*cells, Cell("markdown", line, "ways", cells[-1].line, {})] if line else cells
     texts = [
         k for k, c in enumerate(main_line(cells)) if c.type == "markdown" and c.slide != "notes"

@@ -116,9 +116,9 @@ def _compared(pairs):
     if len(got) < FEW:
         return None
     ratio = np.vdot(want, got) / max(np.vdot(want, want), ROUNDING)
-    far = got.any() and abs(ratio - 1) > NEAR  # otherwise perhaps by samples
     step, later = _step_of(got - want), min(map(_first_wrong, wrong))
     flags = np.isin([got, want], (-1, 0, 1)).all()
+    far = not flags and got.any() and abs(ratio - 1) > NEAR  # a near ratio may be due to samples
     for name, holds, text in (
         ("turned", turned.all(), TURNED),
         ("transposed", all(_transposed(*pair) for pair in pairs), TRANSPOSED),

@@ -442,7 +442,7 @@ def ghost_drive(rng, steps=50):
 #
 # The points of all rows that you reach are added. Row 3 also requires row 1, but not row 2. Leaving
 # the arguments unchanged is worth another 0.5 points. A gate is welcome: with the right width it
-# reaches rows 1 and 2. Row 3 is the hardest, and multiplying the $P$ of a gate does not reach it: the
+# reaches rows 1 and 2. Row 3 is the hardest, and one factor on the $P$ of a gate does not reach it: the
 # mean NEES must be near 2, as that of a consistent filter, in clear and in doubtful steps. Each $P$
 # must be positive definite. The check stops after 20 s.
 

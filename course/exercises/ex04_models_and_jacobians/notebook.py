@@ -54,8 +54,8 @@ ask(
 # $10^{-8}$ of the largest entry of each row.
 #
 # Derive the formulas. In tasks 1, 2 and 4 the check also uses the coordinates of surveyors, up to
-# $10^7$ m, and in task 4 headings after hundreds of thousands of turns. There finite differences
-# with any step have larger errors.
+# $10^7$ m, and in task 4 headings after hundreds of thousands of turns. There finite differences at
+# these coordinates have larger errors with any step.
 
 
 # %%

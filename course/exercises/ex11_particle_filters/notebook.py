@@ -366,8 +366,8 @@ ask(
 # **Your task.** Write a step that relocalises the robot soon and is robust against false
 # measurements. Any method is allowed. The number of particles must not change. Weights must not
 # be negative, and not all of them may be 0. All that the function knows about earlier steps must
-# be in `rows` and `weights`. Do not use global variables for this: the check calls `find_again`
-# for the first step of all sixteen runs, then for the second step of all runs, and so on. If
+# be in `rows` and `weights`. Do not use global variables or attributes: the check calculates
+# sixteen runs at the same time, so the next call of `find_again` belongs to another run. If
 # your `draw` is wrong, the check uses a correct one in its place. The check stops after 10 s.
 #
 # *Near* means within 0.5 m of the robot. The *search* is the ten steps that follow the

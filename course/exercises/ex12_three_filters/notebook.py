@@ -341,7 +341,7 @@ def _():
 # scan also contains 0.7 *false measurements* on average, which come from no post. A scan may be empty.
 #
 # In one step the robot is **kidnapped**: somebody lifts it and sets it down elsewhere in the hall, with any heading.
-# Odometry does not measure this motion.
+# Odometry does not measure this motion. The kidnapping may be early or late in a run.
 #
 # The next cell contains functions for you to use. They take many poses at once, `(n, 3)`, because a robot that is
 # lost has to consider more than one hypothesis.
@@ -432,9 +432,8 @@ ask(
 #
 # The check runs your filter on 24 runs of 30 readings in six halls, with the numbers given above. A reading
 # strays if its position error exceeds 0.3 m. Shortly after the kidnapping, the scans may agree with several bays.
-# So the check finds the third measurement of a unique post since the kidnapping. (The three measurements may be
-# of the same unique post or of different ones.) The reading that contains the third one, and all later ones of
-# the run, are the *readings that count*.
+# So the *readings that count* begin when the robot has measured unique posts three times since the kidnapping,
+# the same one or different ones: the reading with the third of these measurements and all later ones count.
 #
 # The percentages are of the readings of all runs together. Each row of the table that you reach adds its points,
 # but rows 2 to 4 also require row 1:

@@ -227,8 +227,8 @@ def _():
 # $w_i = \rho'(e_i)/2e_i$. These depend on $T$. **Iteratively reweighted least squares** computes the weights for the current $T$,
 # then minimises the weighted sum for these weights, and repeats this.
 #
-# **Your task.** Extend ICP by this kernel. In each iteration, find all correspondences again, compute the weights from their
-# lengths, and update $T$ by the motion that minimises the weighted sum. `best_motion` knows no weights: which parts of its
+# **Your task.** Extend ICP by this kernel, with the same $c$ in all iterations. In each one, find all correspondences again, compute
+# the weights from their lengths, and update $T$ by the motion that minimises the weighted sum. `best_motion` knows no weights: which parts of its
 # derivation in the lesson change? Some correspondences have the length zero. `rounds` may be 0, and $c$ lies between 1 cm and
 # 100 m. Each entry of $T$ may have an error of $10^{-5}$ of the largest entry:
 #

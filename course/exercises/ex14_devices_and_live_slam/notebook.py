@@ -365,8 +365,9 @@ def _():
 #
 # The faults are typical programming errors: a limit that is off by one, a forgotten direction, a special case that
 # was not considered, a total too large for its variable, a value that should have been reset. Each line of the
-# specification is violated by at least one driver. Any method is allowed. If all your test cases keep to the
-# specification and their counts are right, each row of the table that you reach adds its points:
+# specification is violated by at least one driver. Some drivers are wrong for a single byte or a single step only. Any
+# method is allowed. If all your test cases keep to the specification and their counts are right, each row of the table
+# that you reach adds its points:
 #
 # | detected drivers, of 100 | points |
 # | --- | --- |

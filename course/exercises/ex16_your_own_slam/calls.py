@@ -10,6 +10,7 @@ from classroom.exercises.function_calls import (
     argument_rows,
     to_shaped_array,
 )
+from classroom.exercises.function_calls.changed_arguments import WatchedFunction
 from classroom.exercises.function_calls.student_estimator import StudentEstimator
 from slamlab.geometry import compose
 from slamlab.readings import Reading, Scan
@@ -66,12 +67,13 @@ def _run_with_covariances(functions, inputs):
 def _run_estimator(make, odometry, ranges, range_max=RANGE_MAX):
     """Run a new estimator; return it, its online poses (n, 3) and P (n, 3, 3)."""
     estimator, angles = StudentEstimator(make), np.linspace(-np.pi, np.pi, ranges.shape[1] + 1)
-    answers = [
-        estimator.step(
-            Reading(0.5 * k, u.copy(), Scan(angles[:-1], r.copy(), range_max, RANGE_MIN))
-        )
-        for k, (u, r) in enumerate(zip(odometry, ranges, strict=True))
-    ]
+
+    def read(u, r, k):
+        return estimator.step(Reading(0.5 * k, u, Scan(angles[:-1], r, range_max, RANGE_MIN)))
+
+    step = WatchedFunction(read)
+    answers = [step(u, r, k) for k, (u, r) in enumerate(zip(odometry, ranges, strict=True))]
+    getattr(make, "changed", set()).update(step.changed)
     online, covariances = (np.array(arrays) for arrays in zip(*answers, strict=True))
     return estimator, online, covariances
 

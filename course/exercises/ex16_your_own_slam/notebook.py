@@ -12,7 +12,7 @@
 #
 # | name | meaning |
 # | --- | --- |
-# | `step(reading)` | is called for each reading, about every 0.4 m. `reading.odometry` is the odometry increment since the previous reading, `[x, y, θ]` in the frame of the previous pose. `reading.scan` is a lidar scan. Its `points()` are (n, 2) in the robot frame, and its `ranges` and `angles`, (n,), are those of the beams. If a scan is lost, no beam has a range. The odometry does not measure when the robot is carried to another position |
+# | `step(reading)` | is called for each reading, about every 0.4 m. `reading.odometry` is the odometry increment since the previous reading, `[x, y, θ]` in the frame of the previous pose. `reading.scan` is a lidar scan. Its `points()` are (n, 2) in the robot frame, and its `ranges` and `angles`, (n,), are those of the beams. If a scan is lost, all `ranges` are NaN. The odometry does not measure when the robot is carried to another position |
 # | `pose` | the current estimate of the pose, `[x, y, θ]`. You may choose the frame |
 # | `trajectory()` | the *current* estimates of all poses, (n, 3). It is called at the end |
 # | `map()` | points on the walls, (n, 2), in the frame of `trajectory()` |
@@ -52,7 +52,7 @@ ask(
 )
 
 
-# %% name="drive"
+# %% name="drive" answers="ex16-blue"
 @attempt
 def _():
     from classroom.project.practice import practise, table
@@ -127,12 +127,23 @@ check("16-loop")
 # from 0) are lost. Four of them are repeated with all scans. The odometry increment of each reading has independent
 # errors with standard deviations of 30 mm in $x$, 4 mm in $y$ and 0.035 rad in $\theta$. The check places the true
 # trajectory so that it begins at your first pose, and computes the errors of `pose` along the axes of your frame.
-# From the second reading on, each covariance must be positive definite.
+# From the second reading on, each covariance must be positive definite; that of the first reading is not judged, and
+# may be `None`.
 #
 # | required | points |
 # | --- | --- |
 # | in each of the twelve runs, the standard deviation of the position, $\sqrt{P_{xx} + P_{yy}}$, grows by a factor of at least 2 from reading 10 to reading 29; there it is at least 1.5 times that of the same run with all scans | 0.5, only together with the next row |
-# | the mean NEES lies between 0.2 and 8 in readings 1 to 9 of the twelve runs, between 0.2 and 12 in readings 27 to 29, and between 0.2 and 30 in readings 27 to 33 of the four runs with all scans; in readings 27 to 29 of the twelve runs, the mean standard deviation in the direction of travel is less than 0.4 m; and in readings 1 to 9 the mean position error is less than 0.95 times that of odometry | 1.5, only together with the row above |
+# | each number of the next table is within its limits | 1.5, only together with the row above |
+#
+# | number | limits |
+# | --- | --- |
+# | mean NEES in readings 1 to 9 of the twelve runs | 0.2 to 8 |
+# | mean NEES in reading 10, the first one without a scan | 0.2 to 12 |
+# | mean NEES in readings 27 to 29 of the twelve runs | 0.2 to 12 |
+# | mean NEES in readings 27 to 33 of the four runs with all scans | 0.2 to 30 |
+# | mean standard deviation in the direction of travel in readings 27 to 29 of the twelve runs | at most 0.4 m |
+# | mean correlation there of two errors: of the heading, and of the position to the left of this direction | at least 0.5 |
+# | mean position error in readings 1 to 9, relative to that of odometry | at most 0.95 |
 #
 # The expected NEES of a consistent covariance is 3. The intervals are wide because there are few runs, and the errors
 # of neighbouring readings are correlated: each scan is matched with scans whose poses have errors, too, so the error

@@ -60,7 +60,13 @@ def _below(name, points, limit, asks):
 # but the factor's sign by 2.3 after them. Laps begun anew in the dock err by 1.2–1.5 m, dead
 # reckoning by 3 m at least, the last lap's factor alone by 0.36–0.92 m.
 STEPS = (
-    _below("better", 0.5, 2.2, "What is the pose of the robot whenever it is docked?"),
+    _below(
+        "better",
+        0.5,
+        2.2,
+        "What is the pose of the robot whenever it is docked? By which angle does it turn in a lap "
+        "to the left, and by which angle in a lap to the right?",
+    ),
     _below(
         "good",
         2,
@@ -115,7 +121,7 @@ MISTAKES = (
     ),
     Diagnosis(
         "lost beyond",
-        "Your trajectories are accurate up to the end of the last lap, but not after it. Estimate "
+        "Your trajectories have far larger errors after the last lap than in the laps. Estimate "
         "the systematic error from the laps, and also correct the steps after the last lap.",
         _only_beyond,
         asks="How large is the error of your trajectories after the last lap? Which steps have "

@@ -82,6 +82,7 @@ SEEN_FROM = Task(
         Probe("poses far apart", _far),
     ),
     parts=motions.parts_of_a_pose,
+    needs=("01-next-pose",),
     references=(Reference("seen_from", "a b", _want),),
     begins=(
         "Which step leads from a to b if a faces along +x, and which if a faces along +y?",

@@ -120,7 +120,7 @@ BEAM = Task(
             1,
             "a scan of hits alone has the right log-likelihood",
             "How large is the integral of your density over all readings from 0 to `range_max`, if "
-            "the wall is close to `range_max`?",
+            "the wall is close to `range_max`, and if `error` is 0.5?",
         ),
         _law(
             "short",
@@ -165,7 +165,7 @@ BEAM = Task(
         Probe("two thousand beams", lambda rng: scans(rng, 2, 2000), ("far",)),
         Probe("impossible readings", _impossible, ("impossible",)),
     ),
-    parts=lambda i, o: {"result": np.where(o["finite"] > 0, o["log"], 1e7 * o["finite"])},
+    parts=lambda i, o: {"log": np.arcsinh(o["log"]), "finite": o["finite"]},  # small logs count
     may_round=_promised,
     begins=(
         "Take a single beam that has no return. What is its probability?",

@@ -248,11 +248,12 @@ MISTAKES = (
     ),
     Diagnosis(
         "still-too-large",
-        "Your error is too large for most sensors. If you compute it as a variance: how much do "
-        "outliers near the wall, and the quantisation, add?",
+        "Your error is too large for most sensors. It must be computed from the deviations of the "
+        "wall's readings from the range of the wall. Do yours contain outliers, an error of this "
+        "range, or the quantisation?",
         lambda inputs, outputs: np.median(_far_off(inputs, outputs)) > 0.15,
-        asks="From which readings do you compute the error of a sensor? Which of them are not of "
-        "the wall, and which other errors do they contain?",
+        asks="From which readings do you compute the error of a sensor, and from which range do "
+        "you measure their deviations? Which other errors do they contain?",
     ),
 )
 

@@ -45,6 +45,12 @@ def _aimed(ends, half=0.4):
     return inputs
 
 
+def _far(rng):
+    inputs = cones(rng, 12, walls=1, half=(0.5, 1.2), length=(3, 9))
+    p = np.tile(inputs["p"], 2)[:, None]
+    return inputs | {"walls": p + 100 * (inputs["walls"] - p)}
+
+
 def _squarely(rng):
     quarter, square = np.arange(4), np.array([[2, -3, 2, 3], [2, 3, -4, 3], [-4, 3, -4, -3]])
     phi = quarter * np.pi / 2
@@ -129,7 +135,8 @@ def _beams(inputs, outputs):
     off = outputs["distance"][foot] - right[foot]
     share = off / right[foot]
     uneven = foot.any() and min(np.ptp(off), np.ptp(share)) > 1e-6  # no factor, nor a summand
-    return uneven and (share > -1e-12).all() and (share < 0.05).all()
+    most = np.mean(share > 1e-9) > 0.5  # a beam hardly ever meets a foot
+    return uneven and most and (share > -1e-12).all() and (share < 0.05).all()
 
 
 FAN = Diagnosis(
@@ -166,8 +173,8 @@ ECHO = Task(
             1,
             "the distance is right if the nearest point lies between the ends of a wall",
             ["foot"],
-            "From which point of an infinitely long wall does the first echo come, and what is "
-            "its τ?",
+            "Which point of an infinitely long wall is the nearest, and what is its τ? Does your "
+            "cone contain this point, and do you compare it with those of all other walls?",
         ),
         _law(
             "end",
@@ -207,6 +214,7 @@ ECHO = Task(
         Probe("thin posts", lambda rng: cones(rng, 12, walls=1, length=(0.005, 0.01))),
         Probe("walls that point at the sensor", _aimed(RADIAL)),
         Probe("walls across the whole cone", _aimed(ACROSS)),
+        Probe("walls at a hundred metres and more", _far),
         Probe("walls that extend behind the sensor", _aimed(BEHIND)),
         Probe("walls along x and y", _squarely),
     ),

@@ -108,11 +108,18 @@ MISTAKES = (
         lambda true, error: np.sqrt(error * true),
         asks="Which unit has the number by which you multiply a standard normal number?",
     ),
+    _scaled(
+        "per-cent",
+        "Your noise is a hundred times too small. error is a fraction and not a percentage: 0.02 "
+        "is 2 %.",
+        lambda true, error: error * true / 100,
+        asks="How large is the noise of your readings at 10 m if error is 0.02?",
+    ),
     Diagnosis(
         "uniform",
         "Your noise never exceeds error · r, like a uniform random number. Normally distributed "
         "noise exceeds its standard deviation in one of three cases.",
-        lambda inputs, outputs: _all(inputs, outputs, lambda z: abs(z).max() < 1 + 1e-6),
+        lambda inputs, outputs: _all(inputs, outputs, lambda z: 0.3 < abs(z).max() < 1 + 1e-6),
         asks="How large is the largest error of your readings, compared with error · r?",
     ),
     Diagnosis(

@@ -51,7 +51,9 @@ def _spread_right(inputs, outputs):
         return abs(_rms(z) - error) * np.sqrt(2 * len(z))
 
     z = normalised(inputs, outputs, 0)
-    normal = all(_likely((np.abs(z) > t).sum(), np.isfinite(z).sum(), p, 4) for t, p in BEYOND)
+    count = np.isfinite(z).sum()
+    sides = [(side * z, t, p) for side in (1, -1) for t, p in BEYOND]
+    normal = all(_likely((z > t).sum(), count, p / 2, 4) for z, t, p in sides)
     return _bounded(inputs, outputs, off) and normal and _unrelated(z[:, 1:], z[:, :-1])
 
 
@@ -85,10 +87,12 @@ def _why_spread(inputs, outputs):
     )
     z = normalised(inputs, outputs, 0)
     related, z = np.nanmean(z[:, 1:] * z[:, :-1]), z[np.isfinite(z)]
-    beyond = ", ".join(f"{np.mean(np.abs(z) > t):.3f} ({p:.3f})" for t, p in BEYOND)
+    beyond = ", ".join(
+        f"{np.mean(z < -t):.3f} and {np.mean(z > t):.3f} ({p / 2:.3f})" for t, p in BEYOND
+    )
     return (
-        f"{told}; fractions beyond 1, 2 and 2.6 σ, in brackets those of the normal distribution: "
-        f"{beyond}; correlation of neighbouring beams {related:.2g}"
+        f"{told}; fractions below −1 and above 1 σ, 2 σ, 2.6 σ, in brackets those of the normal "
+        f"distribution: {beyond}; correlation of neighbouring beams {related:.2g}"
     )
 
 
@@ -188,8 +192,8 @@ NOISE = Task(
             "over thousands of readings the mean error is 0",
             _right_on_average,
             why=_why_average,
-            asks="Which random numbers with mean 0 do you need, and to which numbers do you add "
-            "them?",
+            asks="Which random numbers with mean 0 do you need, to which numbers do you add them, "
+            "and does their size decide anything else?",
             step=_noise,
         ),
         Law(
@@ -199,8 +203,8 @@ NOISE = Task(
             "for far walls, and independent for each beam",
             _spread_right,
             why=_why_spread,
-            asks="A standard normal number has the standard deviation 1. By which number do you "
-            "multiply it for a range of 10 m, and for a range of 1 m?",
+            asks="Which distribution have the random numbers of your noise, and has each beam its "
+            "own? By which number do you multiply them for a range of 10 m, and for one of 1 m?",
             step=_noise,
         ),
         Law(

@@ -12,6 +12,7 @@ from course.exercises.ex02_sensors_and_worlds.walls import as_outputs, crossing,
 AHEAD, BEHIND, BESIDE, PARALLEL = 44, 10, 16, 4
 KINDS = ("ahead", "behind", "beside", "parallel")
 HAIR = 1e-12  # [rad]
+ENDS = np.tile([[1e-5, 0.9995], [5e-4, 1 - 1e-5]], 4)  # share of the wall: least, largest
 FARTHEST = 1e3  # no wall is farther [m]; where parallel lines would meet hangs on rounding
 
 
@@ -22,13 +23,14 @@ def beams(
     counts=(AHEAD, BEHIND, BESIDE, PARALLEL),
     turns=0,
     slant=(0.05, 1.4),
+    share=(0.02, 0.98),
 ):
     """Beams and walls; ``counts`` of them ahead, behind, beside, parallel; pairs are (low,
     high)."""
     kind = np.repeat(KINDS, counts)
     n = len(kind)
     # where on the wall's line the beam's line crosses it, and how far along
-    s, way = rng.uniform(0.02, 0.98, n), rng.uniform(*t, n)
+    s, way = rng.uniform(*share, n), rng.uniform(*t, n)
     way[kind == "behind"] *= -1
     beside = np.flatnonzero(kind == "beside")
     s[beside] = np.where(beside % 2, rng.uniform(-1.2, -0.03, len(beside)), 2 - s[beside])
@@ -143,7 +145,7 @@ RAY_WALL = Task(
             "if the beam meets the wall, the point at the returned range lies on the beam and "
             "between the ends of the wall",
             "How does (02.1) change if the beam starts at p? For which r and τ are both sides of "
-            "the equation the same point?",
+            "the equation the same point? Is your result this r, also for beams along +y and −x?",
         ),
         _law(
             "behind",
@@ -172,6 +174,7 @@ RAY_WALL = Task(
         Probe("walls nearer than a metre", lambda rng: beams(rng, t=(0.005, 0.9))),
         Probe("long walls far away", lambda rng: beams(rng, (40, 90), (50, 99), (6, 3, 4, 2))),
         Probe("a direction beyond a whole turn", lambda rng: beams(rng, turns=-2)),
+        Probe("beams just beside an end", lambda rng: beams(rng, counts=(8, 0, 0, 0), share=ENDS)),
         Probe(
             "posts of a few centimetres, almost parallel to the beam",
             lambda rng: beams(rng, length=(0.02, 0.08), slant=(0.004, 0.02)),

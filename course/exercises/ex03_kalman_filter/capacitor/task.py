@@ -75,9 +75,8 @@ CAPACITOR = Task(
             "the columns of F are the effects of a step on 1 V of the capacitor and on 1 V of the "
             "source",
             moved,
-            asks="Charge the capacitor to 1 V and set the source to 0 V: which voltage does the "
-            "capacitor have after dt? Then charge the source to 1 V and the capacitor to 0 V, and "
-            "answer again.",
+            asks="Charge the capacitor to 1 V and set the source to 0 V: which voltages do both "
+            "have after dt? Then set the source to 1 V and the capacitor to 0 V, and answer again.",
             step=_left,
         ),
         equals(

@@ -142,7 +142,7 @@ CONSISTENT = Task(
         equals(
             "wrong",
             1,
-            "the returned word “wrong” names the noise that is too small or too large",
+            "the two numbers of wrong tell for Q and for R whether it is too small or too large",
             _of("wrong"),
             asks="A filter with too small a Q follows too slowly. Which sign do successive "
             "innovations then have? And if R is too small, so that it follows each reading?",

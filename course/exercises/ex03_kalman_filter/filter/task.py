@@ -82,9 +82,9 @@ FILTER = Task(
             2,
             "after each measurement x is the least-squares estimate from all measurements so far",
             lambda i: {"xs": everything(i)["xs"]},
-            asks="Follow the first measurement on paper. How many steps has the system made "
-            "before this measurement? Which x and P do you have before the update, and with "
-            "which x and P do you continue after it?",
+            asks="How many steps has the system made before the first measurement? Which x and P "
+            "do you have before the update, and with which x and P do you continue after it? Is "
+            "everything in the later steps as in the first one?",
             step=_before_one,
         ),
         equals(

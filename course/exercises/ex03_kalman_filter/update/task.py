@@ -28,12 +28,17 @@ def _contradictory(rng):
 
 
 def _posterior(i):
-    return dict(zip(("x", "P"), least_squares(i), strict=True))
+    """The posterior for any x and P that a filter may pass, also if P is singular."""
+    v, PH = i["z"] - times(i["H"], i["x"]), i["P"] @ i["H"].swapaxes(1, 2)
+    K = PH @ np.linalg.inv(i["H"] @ PH + i["R"])
+    return {"x": i["x"] + times(K, v), "P": i["P"] - K @ i["H"] @ i["P"]}
 
 
 def _innovation(i):
-    S = i["H"] @ i["P"] @ i["H"].swapaxes(1, 2) + i["R"]
-    return {"z − H x": (i["z"] - times(i["H"], i["x"]))[0], "its covariance": S[0]}
+    PH = i["P"] @ i["H"].swapaxes(1, 2)
+    S = i["H"] @ PH + i["R"]
+    v = i["z"] - times(i["H"], i["x"])
+    return {"z − H x": v[0], "its covariance": S[0], "gain": (PH @ np.linalg.inv(S))[0]}
 
 
 UPDATE = Task(
@@ -49,7 +54,8 @@ UPDATE = Task(
             "x is the weighted least-squares estimate from prior and measurement",
             lambda i: {"x": least_squares(i)[0]},
             asks="Suppose that z is equal to the predicted measurement. What should x become? "
-            "Otherwise, on which entries of R does the correction of x depend, and on which P?",
+            "Otherwise, which unit has the factor of the innovation, and what does this factor "
+            "become if R is far larger than H P Hᵀ?",
             step=_innovation,
         ),
         equals(

@@ -126,7 +126,7 @@ TASK = Task(
             "u is the column of the landmark in the image",
             _u,
             asks="Where is the landmark in the frame of the robot, and where is the camera in "
-            "this frame? Which X and Y follow from these positions?",
+            "this frame? Which X and Y follow from these positions, and which quotient is u?",
             step=_frame,
         ),
         _entries(

@@ -126,8 +126,9 @@ TASK = Task(
             "one-nat",
             0.5,
             LIMITS[0],
-            "Some robots drive more to the left than estimated, and some more to the right. Is "
-            "the mean of their end points nearer to the start than f(x, u), or farther from it?",
+            "Does a robot drive along its old or its new heading? Some drive more to the left than "
+            "estimated, some more to the right: is the mean of their end points nearer to the "
+            "start than f(x, u), or farther from it?",
         ),
         _half(
             "tenth",

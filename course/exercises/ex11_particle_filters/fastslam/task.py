@@ -213,7 +213,8 @@ FASTSLAM = Task(
             why=_why_samples,
             asks="Do two particles with equal poses move equally? At which pose of a particle "
             "do you compute its expected measurement?",
-            step="Compare the poses that you return with those at which you compute h.",
+            step="Compare the poses that you return with those at which you compute h. Then print "
+            "S for a particle: its pose is given, so which covariances does S contain?",
             main=False,
             after=ALL,
         ),

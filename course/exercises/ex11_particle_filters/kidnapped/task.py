@@ -170,13 +170,13 @@ KIDNAPPED = Task(
         Diagnosis(
             "outweighed",
             "In most steps some particle is near the robot, but most of the weight is elsewhere, "
-            "even before the kidnapping. Do the injected particles have too much weight, compared "
-            "with the particles that have followed the robot? What is the density of their "
-            "proposal, and how probable is a kidnapping? And how much weight does a particle that "
-            "has followed the robot keep after a false measurement?",
+            "even before the kidnapping. Either the particles do not follow the robot: is each one "
+            "moved once, with its noise, and weighted at its new pose? Or the injected particles "
+            "have too much weight: what is the density of their proposal, how probable is a "
+            "kidnapping, and how much weight does an old particle keep after a false measurement?",
             lambda i, o: before(i, o) >= 1 and at_hand(i, o) >= 0.5,
-            asks="How much weight do the injected particles get in a step in which nothing "
-            "unusual happens?",
+            asks="How accurate are your particles before the kidnapping if you inject none? How "
+            "much weight do injected particles get in a step in which nothing unusual happens?",
         ),
         Diagnosis(
             "lost-before",
@@ -190,19 +190,22 @@ KIDNAPPED = Task(
         Diagnosis(
             "too-rare",
             "In the ten steps after the kidnapping too little of the weight is near the robot. "
-            "Particles at random poses are rarely near its pose: sample positions and headings "
-            "for which both range and bearing agree with the measurement. Data that you store "
-            "outside rows and weights may belong to another run of the check.",
+            "Either too few injected particles agree with both range and bearing, or those that "
+            "agree are lost before a second measurement confirms them. If you store data outside "
+            "rows and weights, they may belong to another run of the check.",
             lambda i, o: not _again(i, o) and steady(i, o) > STEADY and before(i, o) < STEADY,
-            asks="How many of your injected particles agree with both range and bearing?",
+            asks="How many of your injected particles agree with both range and bearing? How many "
+            "of these are left one step later, and two steps later?",
         ),
         Diagnosis(
             "deceived",
-            "False measurements move the particles away from the robot. Most of the weight should "
-            "stay on the old particles, and only a little should be on the alternatives. Which "
-            "weight should an injected particle have if it agrees with only one measurement?",
+            "Too much of the weight is far from the robot. Either your particles do not follow it "
+            "even without injection (motion, its noise C, likelihood at the new pose), or false "
+            "measurements give injected particles too much weight: which weight should one have "
+            "that agrees with a single measurement, and which one outside the room?",
             lambda i, o: sure(i, o) > SURE and (_again(i, o) or before(i, o) >= STEADY),
-            asks="How much weight do the old particles keep after one false measurement?",
+            asks="How large is your error before the kidnapping if you inject no particles? How "
+            "much weight do the old particles keep after one false measurement?",
         ),
     ),
     parts=lambda i, o: {

@@ -23,7 +23,7 @@ def runs(rng, blunt=(0.7, 0.7, 3.0, 3.0), **sizes):
     return {name: np.array([part[name] for part in parts]) for name in parts[0]}
 
 
-def sure_wheels(rng, blunt=(0.5, 6.0), samples=100, marks=3, **more):
+def sure_wheels(rng, blunt=(0.5, 0.5, 0.6, 0.6, 6.0), samples=100, marks=3, **more):
     """Nearly exact odometry: each particle's place and weight is known; some near ±π."""
     return runs(rng, blunt, samples=samples, marks=marks, wide=4.0, sure=True, **more)
 

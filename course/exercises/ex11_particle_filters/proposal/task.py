@@ -130,7 +130,7 @@ PROPOSAL = Task(
             1.5,
             "the weights are right if all proposals have the same covariance",
             "Which two densities does the importance weight need? At which d and Δθ do you "
-            "compute them?",
+            "compute them, and with which entries of C and D?",
         ),
         _law(
             "weights",

@@ -13,8 +13,8 @@ REACH, SEEN, PHANTOMS = 2.0, 0.8, 0.7  # range [m], share detected, false measur
 EYES, WHEELS = np.array([0.03, 0.02]), np.array([0.02, 0.01, 0.02])  # σ of z, of a motion
 MOST = 14  # measurements per scan, at most
 STEPS, STEP = 30, 0.35  # readings of a run, distance between two [m]
-LIFTED = 6, 14  # first reading after the kidnapping: least, most + 1
-TRIED = 6  # pairs of paths; the pair with the least informative kidnapping is used
+LIFTED, SPAN = 4, 3  # hall k: one of SPAN readings from LIFTED + SPAN k is the first one after it
+TRIED = 16  # pairs of paths; the pair with the least informative kidnapping is used
 
 
 def drives(rng, lifted=6, calm=0):
@@ -22,19 +22,20 @@ def drives(rng, lifted=6, calm=0):
     lifted, calm : halls with and without a kidnapping. start (d, 3), motions (d, STEPS, 3),
     sights (d, STEPS, MOST, 2), counts (d, STEPS), posts (d, n, 2).
     """
-    halls = [_hall(rng, k < lifted) for k in range(lifted + calm)]
+    first = [LIFTED + SPAN * k for k in range(lifted)] + [None] * calm
+    halls = [_hall(rng, each) for each in first]
     return {name: np.concatenate([hall[name] for hall in halls]) for name in halls[0]}
 
 
-def _hall(rng, lifted):
+def _hall(rng, first):
     posts, own = _posts(rng)
-    tried = [np.array([_way(rng), _way(rng)]) for _ in range(TRIED if lifted else 1)]
-    ways = max(tried, key=lambda ways: _hidden(ways, own).max())
+    tried = [np.array([_way(rng), _way(rng)]) for _ in range(TRIED if first else 1)]
+    ways = max(tried, key=lambda ways: _hidden(ways, own, first or 1).max())
     motions = between(ways[:, :-1], ways[:, 1:])
     errors = WHEELS * rng.standard_normal(motions.shape)
     truth = ways[:, 1:].copy()
-    if lifted:
-        at = LIFTED[0] - 1 + np.argmax(_hidden(ways, own))
+    if first:
+        at = first - 1 + np.argmax(_hidden(ways, own, first))
         errors[:, at] = 0
         truth[:, at:] = truth[::-1, at:]
         motions[:, at + 1 :] = motions[::-1, at + 1 :]
@@ -49,10 +50,10 @@ def _hall(rng, lifted):
     }
 
 
-def _hidden(ways, own):
+def _hidden(ways, own, first):
     # distance to the nearest unique post in two successive scans, which must not show the bay
     far = np.linalg.norm(ways[:, 1:, None, :2] - own, axis=3).min(axis=(0, 2))
-    return np.minimum(far[:-1], far[1:])[LIFTED[0] - 1 : LIFTED[1] - 1]
+    return np.minimum(far[:-1], far[1:])[first - 1 : first - 1 + SPAN]
 
 
 def truth(i):

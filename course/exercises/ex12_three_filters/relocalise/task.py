@@ -239,11 +239,12 @@ RELOCALISE = Task(
         Diagnosis(
             "nowhere",
             "After the kidnapping, most of your wrong poses do not even look like the true one, so "
-            "the scans do not fit them. How large is the likelihood of each scan at your pose for "
-            "this scan?",
+            "the scans do not fit them. Either the right pose is not among your hypotheses: how "
+            "many do you keep, when do you add new ones, and by which motion, in which frame, do "
+            "you move each one? Or its score is too small: which scans does it contain?",
             lambda i, o: kept(i, o) and lost(i, o) > MOST,
             asks="How many measurements of a scan are near a post of the map at the poses that "
-            "you return?",
+            "you return? Does any of your hypotheses fit better?",
         ),
     ),
     may_round=False,

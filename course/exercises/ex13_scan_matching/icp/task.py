@@ -30,13 +30,12 @@ def judged_at(law, asked):
 
 
 def by_rounds(inputs, outputs, want=matched):
-    """Results of one iteration and of some; of many, which may diverge, whether they are right."""
+    """Results of one iteration; of some, and whether those of many, which diverge, are right."""
     rounds, found, right = inputs["rounds"], outputs["result"], want(inputs)["result"]
     off = np.abs(found - right).max(axis=(1, 2))
     return {
         "one round": found[rounds <= 1],
-        "more": found[(rounds > 1) & (rounds <= SOME)],
-        "many": (off[rounds > SOME] < TOLERANCE).astype(float),
+        "more": np.append(found[(rounds > 1) & (rounds <= SOME)], off[rounds > SOME] < TOLERANCE),
     }
 
 
@@ -58,8 +57,8 @@ ONE = judged_at(
         "one iteration composes T with the best motion of the nearest points; with 0 iterations "
         "T is unchanged",
         matched,
-        asks="best_motion gets a source that T has transformed. In which frame is its result? "
-        "Which of the two motions acts first on a point?",
+        asks="best_motion gets a source that T has transformed, all of it. In which frame is its "
+        "result? Which of the two motions acts first on a point?",
         step=_first_motion,
     ),
     lambda rounds: rounds <= 1,

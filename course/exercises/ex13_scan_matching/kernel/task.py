@@ -71,8 +71,8 @@ ONE = equals(
     "one iteration composes T with the motion that minimises the weighted sum of squares; with 0 "
     "iterations T is unchanged",
     want,
-    asks="What is ρ'(e), and what remains if you divide it by 2e? In which sums of the best "
-    "motion does each correspondence occur, and where does its weight belong?",
+    asks="What is ρ'(e), and what remains if you divide it by 2e, with the c that you are given? "
+    "In which sums of the best motion does each correspondence occur, with which weight?",
     step=_centroids,
 )
 MORE = equals(

@@ -155,7 +155,7 @@ DESKEW = Task(
             "there is one point for each beam with a return",
             lambda i, o: o["count"] == want(i)["count"],
             want=lambda i: {"count": want(i)["count"]},
-            asks="How many beams have a return?",
+            asks="How many beams have a return? With one beam only, what do you divide by?",
             step=lambda i: {"beams with a return": np.isfinite(i["ranges"]).sum(axis=1)},
             alone=False,
         ),

@@ -163,7 +163,7 @@ NODES = Task(
             _as_sent(ANGLE),
             _wanted,
             asks="Which of bytes 1 and 2 counts 256 times as much as the other? Which bit of the "
-            "word does not belong to the angle?",
+            "word does not belong to the angle? Which values has an angle of this lidar?",
             step=_words,
             after=("whole nodes",),
         ),

@@ -20,9 +20,10 @@ def offs(inputs, outputs):
 
 _ON_THE_WAY = {
     "better": "Propagate the covariance of odometry along the chain, and print the squared "
-    "Mahalanobis distance of each loop. True loops are below 11.3 in 99 % of the cases.",
-    "good": "For each loop that passes the gate, count the other loops that agree with it. False "
-    "loops agree with few others.",
+    "Mahalanobis distance of each loop. True loops are below 11.3 in 99 % of the cases, but false "
+    "loops can be, too. Which loop do you accept first?",
+    "good": "For each loop that passes the gate, count the other loops that agree with it. A few "
+    "false loops can agree with each other, so compare the numbers.",
     "right": "Optimise once with each group of loops that agree with each other. Compare the cost "
     "of the resulting maps, with a fixed cost for each rejected loop.",
 }
@@ -58,7 +59,8 @@ STEPS = (
         0.5,
         8,
         0.9,
-        "How large is the error without loops, and how large is it with all loops?",
+        "How large is the error without loops, and how large is it with all loops? Does your map "
+        "depend on the order in which the loops are given?",
     ),
     _step(
         "good",

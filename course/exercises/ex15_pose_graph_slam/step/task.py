@@ -22,8 +22,8 @@ def _wanted(inputs):
 def _normal_equations(inputs):
     pairs = [whitened(*row) for row in zip(*inputs.values(), strict=True)]
     return {
-        "Λ_x without pose 0": np.array([J[:, 3:].T @ J[:, 3:] for J, _ in pairs]),
-        "−g without pose 0": np.array([-J[:, 3:].T @ r for J, r in pairs]),
+        "H without pose 0": np.array([J[:, 3:].T @ J[:, 3:] for J, _ in pairs]),
+        "−b without pose 0": np.array([-J[:, 3:].T @ r for J, r in pairs]),
     }
 
 

@@ -31,9 +31,23 @@ def _better(inputs, outputs):
     return (mine < HALF * wheels).all()
 
 
+def _steps(trajectories):
+    return np.hypot(*np.moveaxis(np.diff(trajectories, axis=1)[..., :2], -1, 0))
+
+
 def _still(inputs, outputs):
-    gone = np.hypot(*np.moveaxis(np.diff(outputs["trajectory"], axis=1)[..., :2], -1, 0)).sum(1)
-    return (gone < 0.5 * short_runs.length(inputs)).any()
+    return (_steps(outputs["trajectory"]).sum(axis=1) < 0.5 * short_runs.length(inputs)).any()
+
+
+def _stops_without_scan(inputs, outputs):
+    steps = _steps(outputs["trajectory"])
+    return (steps[:, LOST - 1] < 0.5 * np.median(steps, axis=1)).all()
+
+
+def _as_long_as_odometry(inputs, outputs):
+    """Whether the lengths differ as those of odometry, by 10 %, not as those of matches."""
+    mine, wheels = (_steps(t).sum(axis=1) for t in (outputs["trajectory"], odometry_poses(inputs)))
+    return (np.abs(mine / wheels - 1) < 0.5 * SCALE).all()
 
 
 def _worse(inputs, outputs):
@@ -66,12 +80,21 @@ CORRIDOR = Task(
             f"in both runs, the mean position error of the last five poses is less than {FAR} m",
             lambda inputs, outputs: (ends(inputs, outputs)[0] < FAR).all(),
             why=_why,
-            asks="Do you match a scan only with the previous one, or with several previous scans?",
-            step="Compare the errors of two versions: each scan matched with the previous "
-            "scan, and each scan matched with the last five scans together.",
+            asks="Which part of your error lies along the corridor? Does your match change the "
+            "distance that odometry states, and do you match with one previous scan or several?",
+            step="Compare the length of your trajectory with that of odometry. Then compare the "
+            "errors with each scan matched with the previous scan, and with the last five.",
         ),
     ),
     diagnoses=(
+        Diagnosis(
+            "step-lost",
+            "In the reading whose scan is lost, your pose hardly moves. The robot does move, and "
+            "odometry measures this step: compose its increment even without a scan.",
+            _stops_without_scan,
+            asks="How far do your poses move from reading to reading, and how far do they move in "
+            "the reading without a scan?",
+        ),
         Diagnosis(
             "stays",
             "Your poses hardly move. Is each odometry increment composed with the previous pose?",
@@ -87,6 +110,15 @@ CORRIDOR = Task(
             _worse,
             asks="At which pose does your match begin, and how far is it from the pose of "
             "odometry? What determines the position along a corridor?",
+        ),
+        Diagnosis(
+            "distance-of-odometry",
+            "In both runs, the length of your trajectory is that of odometry, which has a scale "
+            f"error of {100 * SCALE:.0f} %. The niches show the distance, too: does your match "
+            "change x and y, and how small is the standard deviation that it gives odometry?",
+            _as_long_as_odometry,
+            asks="How long is your trajectory, and how long is that of odometry? Which of the two "
+            "measures the distance more accurately, odometry or a match?",
         ),
     ),
     may_round=False,
