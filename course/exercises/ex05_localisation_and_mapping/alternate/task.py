@@ -114,8 +114,8 @@ ALTERNATE = Task(
             1.5,
             "P of a landmark measured once contains the errors of the pose and of the measurement",
             _of("p", "L"),
-            asks="A landmark is new: which two errors does its position contain, and which "
-            "Jacobian propagates each of them?",
+            asks="A landmark is new: which errors does its position contain? How often do you use "
+            "this first measurement, and for what?",
             step=_new,
             main=False,
         ),

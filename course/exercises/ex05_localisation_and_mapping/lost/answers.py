@@ -239,7 +239,7 @@ def find_yourself(x, P, drives, ids, zs, landmarks, C, R):
 def find_yourself(x, P, drives, ids, zs, landmarks, C, R):
     return localise(x, P, drives, ids, zs, landmarks, C, 10 * R)
 
-# %% wrong: good means, but a constant P for all steps
+# %% wrong: good means, but P without its correlations
 def find_yourself(x, P, drives, ids, zs, landmarks, C, R):
     headings = np.linspace(-np.pi, np.pi, 72, endpoint=False)
     poses = np.column_stack([np.tile(x[:2], (72, 1)), headings])
@@ -251,7 +251,7 @@ def find_yourself(x, P, drives, ids, zs, landmarks, C, R):
             cost += np.minimum((v[:, 0] / 0.4) ** 2 + (wrap(v[:, 1]) / 0.15) ** 2, 9)
     x = np.array([x[0], x[1], headings[np.argmin(cost)]])
     P = np.diag([P[0, 0], P[1, 1], 0.12 ** 2])
-    xs = []
+    xs, Ps = [], []
     for u, i, z in zip(drives, ids, zs):
         x, P = predict(x, P, u, C)
         if i >= 0:
@@ -261,7 +261,8 @@ def find_yourself(x, P, drives, ids, zs, landmarks, C, R):
             if v @ np.linalg.solve(H @ P @ H.T + R, v) < 9.2:
                 x, P = locate(x, P, z, landmarks[i], R)
         xs.append(x)
-    return np.array(xs), np.tile(np.diag([0.3, 0.3, 0.3]) ** 2, (len(xs), 1, 1))
+        Ps.append(P * np.eye(3))
+    return np.array(xs), np.array(Ps)
 
 # %% wrong: changes x and P in place, and is right otherwise
 def find_yourself(x, P, drives, ids, zs, landmarks, C, R):

@@ -148,19 +148,3 @@ def locate_by_ranges(x, P, rs, beacons, a, sigma):
     S = H @ P @ H.T + sigma ** 2
     K = P @ H.T @ np.linalg.pinv(S)
     return x + K @ (rs - r), P - K @ S @ K.T
-
-# %% wrong: one after the other, and every innovation from the pose before the first
-def locate_by_ranges(x, P, rs, beacons, a, sigma):
-    c, s = np.cos(x[2]), np.sin(x[2])
-    Rot = np.array([[c, -s], [s, c]])
-    antenna = x[:2] + Rot @ a
-    new = x.copy()
-    for r, b in zip(rs, beacons):
-        d = antenna - b
-        n = np.linalg.norm(d)
-        H = np.array([[d[0] / n, d[1] / n, d @ (Rot @ [-a[1], a[0]]) / n]])
-        S = H @ P @ H.T + sigma**2
-        K = P @ H.T / S
-        new = new + K[:, 0] * (r - n)
-        P = P - K @ S @ K.T
-    return new, P

@@ -1,5 +1,7 @@
 """Task 05-ranges: beacons measure ranges to the robot's antenna, without bearings."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from classroom.exercises.correctness_laws import Diagnosis, equals
@@ -107,7 +109,8 @@ def want(inputs):
 
 def _on_the_way(inputs):
     H, v = _linearised(inputs)
-    return {"antenna": _antenna(inputs)[0], "v": v, "H": H}
+    S = H @ inputs["P"] @ T(H) + inputs["sigma"][:, None, None] ** 2 * np.eye(v.shape[1])
+    return {"antenna": _antenna(inputs)[0], "v": v, "H": H, "S": S}
 
 
 def _ranges_exact(inputs, outputs, n=0):
@@ -121,6 +124,23 @@ def _ranges_exact(inputs, outputs, n=0):
 def _promised(inputs):
     far = np.linalg.norm(_antenna(inputs)[0][:, None] - inputs["beacons"], axis=-1)
     return (far > 0.005).all(axis=1)
+
+
+COVARIANCE = equals(
+    "covariance",
+    2.5,
+    "P is the covariance of that estimate: its inverse is (prior P)⁻¹ + Hᵀ H / σ²",
+    lambda inputs: {"P": want(inputs)["P"]},
+    tolerance=EXACT,
+    asks="Which shape has S with m beacons, and which entries of S contain sigma?",
+    step=_on_the_way,
+)
+DIFFERENCES = differences(lambda inputs: {"P": want(inputs)["P"]})
+
+
+def _differences(inputs, outputs):
+    # an exact P needs an exact H
+    return DIFFERENCES.matches(inputs, outputs) and not COVARIANCE.holds(inputs, outputs).all()
 
 
 RANGES = Task(
@@ -150,19 +170,11 @@ RANGES = Task(
             "the new pose is the least squares estimate from prior and all ranges",
             want,
             angles={"x": 2},
-            asks="Suppose that the robot turns on the spot. Does the distance from antenna to "
-            "beacon change?",
+            asks="At which point does the predicted range of a beacon begin? Which errors does an "
+            "innovation contain, and which weight does each range have?",
             step=_on_the_way,
         ),
-        equals(
-            "covariance",
-            2.5,
-            "P is the covariance of that estimate: its inverse is (prior P)⁻¹ + Hᵀ H / σ²",
-            lambda inputs: {"P": want(inputs)["P"]},
-            tolerance=EXACT,
-            asks="Which shape has S with m beacons, and which entries of S contain sigma?",
-            step=_on_the_way,
-        ),
+        COVARIANCE,
     ),
     diagnoses=(
         Diagnosis(
@@ -179,7 +191,7 @@ RANGES = Task(
             lambda inputs, outputs: _ranges_exact(inputs, outputs, n=1),
             asks="Which covariance does the noise of two different ranges have in your S?",
         ),
-        differences(lambda inputs: {"P": want(inputs)["P"]}),
+        replace(DIFFERENCES, matches=_differences),
     ),
     may_round=_promised,
     begins=(
