@@ -85,10 +85,11 @@ def differences(want, on=NAME, exact=lambda inputs: {}):
 
     return Diagnosis(
         "differences",
-        "Your result is nearly right, but not exact. Finite differences have such errors. Derive "
-        "formulas of the derivatives; subtract positions from each other before you multiply them.",
+        "Your result is nearly right, but not exact. Either you use finite differences: derive "
+        "formulas, and subtract positions from each other before you multiply them. Or a small "
+        "term is missing.",
         nearly_right,
         on,
-        asks="How many digits of a coordinate of 500 km does a float keep, and how many of them "
-        "remain in a difference of two such numbers?",
+        asks="Which terms does the formula have? If you use differences: how many digits remain in "
+        "a difference of two numbers that are nearly equal?",
     )

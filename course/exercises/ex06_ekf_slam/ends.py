@@ -22,6 +22,13 @@ def whole(inputs, outputs):
     return bool(fits and (np.sort(ids, axis=1) == met).all())
 
 
+def counted(inputs, outputs):
+    """How many landmarks were measured, and how many are in the map."""
+    met = np.unique(inputs["seen"][inputs["seen"] >= 0]).size
+    found, ids = (outputs["x"].shape[1] - 3) / 2, outputs["ids"].shape[1]
+    return f"{met} landmarks were measured; x contains {found:g}, and ids {ids}"
+
+
 class Ends:
     """The ends of runs among landmarks of a ``kind``; ``sure`` is (low, high) of variances in units
     of those of least squares, ``mean`` limits their mean minus 1, ``apart`` limits :meth:`apart`.

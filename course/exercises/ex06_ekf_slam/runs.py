@@ -11,9 +11,13 @@ from slamlab.geometry import wrap
 from slamlab.models import jacobians
 
 RUNS, STEPS, LANDMARKS = 20, 8, 4
-# which landmarks each scan holds: all but the last are met again, no two scans in a row alike
-SCANS = np.array([[1, -1], [1, 0], [0, -1], [2, 1], [0, 2], [-1, -1], [2, 0], [1, 3]])
-WHEELS, EYES = np.array([0.04, 0.02]), np.array([0.06, 0.02])  # σ of d, Δθ and of r, β
+# which landmarks each scan holds: two new ones at once, three of which one is new; all but the last
+# are met again
+SCANS = np.array(
+    [[1, 0, -1], [0, 1, -1], [0, 2, 1], [2, 1, -1], [-1] * 3, [2, 0, -1], [-1] * 3, [1, 3, 0]]
+)
+# σ of d, Δθ and of r, β: a scan corrects the prediction by several σ of the corrected pose
+WHEELS, EYES = np.array([0.15, 0.02]), np.array([0.06, 0.02])
 START = np.array([0.04, 0.05, 0.02])  # σ of the start [m, m, rad]
 
 
@@ -37,7 +41,7 @@ def runs(rng, behind=False, eyes=EYES):
 
 
 def measured(rng, start, drives, p, scans, sigmas, kind=POINTS, draw=None):
-    """The task's inputs for many runs of one true way. ``scans`` (STEPS, 2) are rows of p, -1 for
+    """The task's inputs for many runs of one true way. ``scans`` (STEPS, k) are rows of p, -1 for
     none; ``sigmas`` are of start, drives and measurements; ``draw`` maps a shape to errors of
     variance 1."""
     draw = draw or rng.standard_normal

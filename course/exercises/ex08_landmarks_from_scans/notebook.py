@@ -169,9 +169,9 @@ ask(
 )
 
 # %% [markdown]
-# The filter's state is the pose and all $N$ walls; `P` is its covariance. `H[j]` is the Jacobian of
-# the predicted measurement of wall $j$ by the whole state, (08.10). Each measurement has the
-# covariance `R`. The errors of different measurements are independent of each other and of the state.
+# The filter's state is the pose and all $N$ walls; `P` is its covariance, which is singular if the map
+# has no errors. `H[j]` is the Jacobian of the predicted measurement of wall $j$ by the whole state,
+# (08.10). Each measurement has the covariance `R`, which is positive definite. The errors of different measurements are independent of each other and of the state.
 #
 # An association gives each measurement a wall, or none. It is **compatible** if
 #

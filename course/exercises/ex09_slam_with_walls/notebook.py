@@ -30,7 +30,8 @@ from slamlab.layers import Ellipses, Poses, Segments
 # ## 1 · Landmark initialisation: a new wall
 #
 # The pose `x` (3,) has the covariance `P` (3, 3). The robot measures a wall for the first time, by `z`, whose
-# errors have the covariance `R` (2, 2) and are independent of those of the pose. By (09.2) of the lesson,
+# errors have the covariance `R` (2, 2) and are independent of those of the pose. The pose or the measurement may be
+# known exactly, so that `P` or `R` is zero. By (09.2) of the lesson,
 #
 # $$ \alpha = \theta + \alpha', \qquad \rho = \rho' + x \cos\alpha + y \sin\alpha. $$
 #

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from classroom.exercises.function_calls import FunctionCall, argument_rows
+from classroom.exercises.function_calls import FunctionCall, StudentError, argument_rows
 from classroom.exercises.function_calls.several_values import stack_values
 
 
@@ -11,6 +11,8 @@ def call_relaxed(functions, inputs):
     "outliers": (m, n)}. Raise StudentError unless "relaxed" returns None, or a box and n flags.
     """
     found = [functions["relaxed"](boxes, int(q)) for boxes, q in argument_rows(inputs)]
+    if any(isinstance(each, tuple | list) and each and each[0] is None for each in found):
+        raise StudentError("malformed", "relaxed returned None and another value, not None alone")
     n = inputs["boxes"].shape[1]
     values = [(np.zeros(4), np.zeros(n)) if each is None else each for each in found]
     left = np.array([float(each is not None) for each in found])

@@ -169,7 +169,7 @@ def _():
     for corner in [(x, y) for x in box[:2] for y in box[2:]]:
         ring = (2.2, 2.8), (direction - d_abs, direction + d_abs)
         views.boxes.sector(ax, corner, *ring, alpha=0.2)
-    views.draw(ax, Boxes("robot", [box]))
+    views.draw(ax, Boxes("robot", [box]), color=views.COLOURS["truth"])
     views.boxes.edges(ax, lines, ("far", "near", "left", "right"))
     views.legend(ax, loc="upper left")
     views.show(fig, alt="Four sectors of rings between your four edges.")
@@ -195,7 +195,7 @@ ask(
         "from −3.1, through 0, to 3.1.",
         "[3.1, −3.1]": "the interval does begin at 3.1, but left must not be less than right.",
         "[3.1, 3.18]": "the interval begins at 3.1, and −3.1 plus a whole turn is 3.18.",
-        "[−3.18, −3.1]": "these are the same directions, but right must be above −π.",
+        "[−3.18, 3.1]": "this interval is a whole turn, because −3.18 and 3.1 are the same direction.",
     },
     right="[3.1, 3.18]",
 )
@@ -281,8 +281,8 @@ ask(
 #
 # **Your task.** Return the smallest box that contains the whole relaxed intersection. Also return $n$
 # flags: true if the measurement is an outlier *for certain*, wherever in the relaxed intersection the
-# robot is. If the relaxed intersection is empty, more than $q$ measurements are outliers: return
-# `None` in place of both.
+# robot is. If the relaxed intersection is empty, more than $q$ measurements are outliers: then
+# return only `None`, not a pair.
 #
 # $0 \le q < n \le 30$. Thirty boxes have 30 million subsets of twenty boxes, too many to try all: the
 # check stops after 10 s. A box contains its sides.
@@ -346,7 +346,7 @@ def _():
     views.draw(ax, Boxes("before", boxes), label="six measurements")
     if found is not None:
         views.draw(ax, Boxes("yours", [found[0]]), color=views.COLOURS["corrected"], linewidth=2.5)
-    views.draw(ax, Points("truth", [robot]), label="true position")
+    views.draw(ax, Points("truth", [robot]), label="true position", marker="X", markersize=10)
     views.legend(ax, loc="upper right")
     views.show(fig, alt="Six boxes, the positions that are in four of them, and your box.")
 
@@ -420,7 +420,7 @@ def look(robot, heading, objects, z, bounds):
 # %% [markdown]
 # The results of `look` are guaranteed, but not tight. After one pass, box and heading are about
 # five times as wide as the smallest possible box and heading. If you repeat `look` until nothing
-# shrinks any more, they are still about three times as wide.
+# shrinks any more, they are still two to four times as wide, depending on the robots.
 #
 # In task 3 the measurement always agrees with the heading. If you call `sharpen` or `look` with
 # only a part of the heading interval, it may not agree. What your `sharpen` returns then is not
@@ -500,8 +500,8 @@ def narrow(robot, heading, objects, z, bounds):
 check("10-narrow")
 
 # %% [markdown]
-# The figure shows one such robot. The dots are positions of feasible poses. The smallest box
-# contains all dots, and some dots are near each side.
+# The figure shows one such robot. The dots are positions of feasible poses. Your box must contain all
+# dots. A box of full marks can be up to 1.4 times as wide as the smallest one, so a side may be beside the dots.
 
 
 # %%
@@ -520,7 +520,7 @@ def _():
         off = np.hypot(dx, dy) - seen[0], wrap(np.arctan2(dy, dx) - poses[:, 2] - seen[1])
         poses = poses[(np.abs(off) <= bounds[:, None]).all(axis=0)]
     fig, ax = views.boxes.scene(
-        "Your box, and one pass of look", (-0.9, 1.6, -0.9, 0.6), size=(8, 5.2)
+        "Your box, and one pass of look", (-0.5, 0.95, -0.75, 0.35), size=(8, 5.8)
     )
     views.draw(ax, Points("sample", poses[:, :2]), label="feasible poses")
     for name, box, colour in (("before", robot, "before"), ("yours", yours[0], "corrected")):

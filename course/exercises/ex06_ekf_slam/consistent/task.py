@@ -126,7 +126,8 @@ CONSISTENT = Task(
             "without the truth nees is None, and with it a NEES",
             ("known",),
             None,
-            "Which of the two tests compares the filter with a quantity that no sensor measures?",
+            "Which of the two tests compares the filter with a quantity that no sensor measures? "
+            "What does the text ask you to return in its place, None or numbers such as nan?",
             alone=False,
         ),
     ),

@@ -75,6 +75,52 @@ def slam_step(x, P, ids, u, seen, z, C, R):
             ids = np.append(ids, i)
     return x, P, ids
 
+# %% wrong: only two measurements of a scan
+def slam_step(x, P, ids, u, seen, z, C, R):
+    x, P = predict(x, P, u, C)
+    for i, one in list(zip(seen, z))[:2]:
+        if i in ids:
+            x, P = update(x, P, one, ids.index(i), R)
+        else:
+            x, P, ids = *augment(x, P, one, R), [*ids, i]
+    return x, P, ids
+
+# %% wrong: only one new landmark in each scan
+def slam_step(x, P, ids, u, seen, z, C, R):
+    x, P = predict(x, P, u, C)
+    before = ids
+    for i, one in zip(seen, z):
+        if i in ids:
+            x, P = update(x, P, one, ids.index(i), R)
+        elif ids == before:
+            x, P, ids = *augment(x, P, one, R), [*ids, i]
+    return x, P, ids
+
+# %% wrong: every innovation of a scan from the predicted state
+def slam_step(x, P, ids, u, seen, z, C, R):
+    x, P = predict(x, P, u, C)
+    x_predicted = x
+    for i, one in zip(seen, z):
+        if i in ids:
+            start = np.append(x_predicted, x[len(x_predicted):])
+            y, P = update(start, P, one, ids.index(i), R)
+            x = x + y - start
+        else:
+            x, P, ids = *augment(x, P, one, R), [*ids, i]
+    return x, P, ids
+
+# %% wrong: new landmarks placed from the predicted pose
+def slam_step(x, P, ids, u, seen, z, C, R):
+    x, P = predict(x, P, u, C)
+    pose = x[:3]
+    for i, one in zip(seen, z):
+        if i in ids:
+            x, P = update(x, P, one, ids.index(i), R)
+        else:
+            _, P = augment(x, P, one, R)
+            x, ids = np.append(x, g(pose, one)), [*ids, i]
+    return x, P, ids
+
 # %% wrong: ids in place
 def slam_step(x, P, ids, u, seen, z, C, R):
     x, P = predict(x, P, u, C)
@@ -95,17 +141,6 @@ def slam_step(x, P, ids, u, seen, z, C, R):
         else:
             x, P = augment(x, P, one, R)
             ids = [*ids, i]
-    return x, P, ids
-
-# %% wrong: ids kept sorted, the state is not
-def slam_step(x, P, ids, u, seen, z, C, R):
-    x, P = predict(x, P, u, C)
-    for i, one in zip(seen, z):
-        if i in ids:
-            x, P = update(x, P, one, ids.index(i), R)
-        else:
-            x, P = augment(x, P, one, R)
-            ids = sorted([*ids, i])
     return x, P, ids
 
 # %% wrong: correlation thrown away after predicting

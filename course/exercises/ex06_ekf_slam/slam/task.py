@@ -5,7 +5,7 @@ import numpy as np
 from classroom.exercises.correctness_laws import Law
 from classroom.exercises.task import Diagnosis, Probe, Task
 from course.exercises.ex06_ekf_slam.calls import CALLS
-from course.exercises.ex06_ekf_slam.ends import MAP, NO_COVARIANCE, Ends, whole
+from course.exercises.ex06_ekf_slam.ends import MAP, NO_COVARIANCE, Ends, counted, whole
 from course.exercises.ex06_ekf_slam.runs import RUNS, runs
 from slamlab.filters.landmark_models import POINTS
 
@@ -36,16 +36,29 @@ def _far_off(inputs, outputs):
     return np.hypot(*error.reshape(-1, 2).T).max() > 1
 
 
-def _counted(inputs, outputs):
-    found = (outputs["x"].shape[1] - 3) / 2
-    ids = outputs["ids"].shape[1]
-    return f"{_landmarks(inputs)} landmarks were measured; x contains {found:g}, and ids {ids}"
+def _unlinked(inputs, outputs):
+    return not outputs["P"][:, 3:5, 5:].any() or not outputs["P"][:, :3, 3:].any()
+
+
+def _too_large(inputs, outputs):
+    ratios = ENDS.ratios(inputs, outputs)
+    return ratios.mean() > 1 + ENDS.mean and ratios.min() > 0.9
+
+
+def _too_small(inputs, outputs):
+    ratios = ENDS.ratios(inputs, outputs)
+    return ratios.mean() < 1 - ENDS.mean and ratios.max() < 1.2
+
+
+def _old_x(inputs, outputs):
+    ratios, (low, high) = ENDS.ratios(inputs, outputs), ENDS.sure_within
+    return ENDS.apart(inputs, outputs) > ENDS.most and low < ratios.min() and ratios.max() < high
 
 
 def _spread(part):
     def why(inputs, outputs):
         if not whole(inputs, outputs):
-            return _counted(inputs, outputs)
+            return counted(inputs, outputs)
         x, P = ENDS.of(inputs, outputs)
         error = ENDS.errors(inputs, x)[:, part]
         if np.linalg.eigvalsh(P[:, part, part]).min() <= 0:
@@ -75,7 +88,7 @@ SLAM = Task(
             1,
             "the map contains each measured landmark exactly once",
             whole,
-            why=_counted,
+            why=counted,
             asks="When is a landmark new, and which variable shows that it is already known?",
             step="Call slam_step twice with the same scan of two landmarks, beginning with an "
             "empty map. Print len(x) and ids after each call: x must have 7 entries both times.",
@@ -113,11 +126,11 @@ SLAM = Task(
             ENDS.sure,
             why=lambda inputs, outputs: ENDS.ratios_told(inputs, outputs),
             after=("ids",),
-            asks="How often, and with which noise, does each measurement enter x and P? Which x "
-            "and P does the next measurement of the same scan use?",
-            step="After predict, two known landmarks must change x and P almost as two calls of "
-            "update do, one after the other. Then begin with an exactly known pose and one new "
-            "landmark: its covariance is J_z R J_zᵀ plus the effect of the motion.",
+            asks="How often, and with which noise, do each control input and each measurement "
+            "enter x and P? Which x and P does the next measurement of the same scan use?",
+            step="With an empty scan, x and P must be those of predict. With three known "
+            "landmarks, x and P must be almost those of predict and three calls of update, each "
+            "with the x and P of the call before. With two new landmarks, both must be in the map.",
         ),
     ),
     diagnoses=(
@@ -143,6 +156,14 @@ SLAM = Task(
             asks="Which measurements of a scan does your loop reach?",
         ),
         Diagnosis(
+            "unlinked",
+            "In your P, blocks beside the diagonal are zero. The errors of the pose and of all "
+            "landmarks are correlated: keep all blocks from step to step.",
+            _unlinked,
+            asks="Which blocks of P beside the diagonal are zero at the end, and which line makes "
+            "them zero?",
+        ),
+        Diagnosis(
             "far-off",
             "A landmark has an error of more than a metre. Check the order first: predict once, "
             "before any measurement is used. If the order is right, you associate some "
@@ -150,6 +171,32 @@ SLAM = Task(
             "belongs to seen[k].",
             _far_off,
             asks="At which pose do you use z, and for which landmark do you use each row?",
+        ),
+        Diagnosis(
+            "old-x",
+            "Your P is that of least squares, but your x is not. Compute each innovation from the "
+            "x after all updates before it, and wrap its bearing. Place a new landmark from the "
+            "pose that belongs to P.",
+            _old_x,
+            asks="From which x do you predict the second measurement of a scan, and from which "
+            "pose do you place a new landmark?",
+        ),
+        Diagnosis(
+            "too-large",
+            "Your P is larger than that of least squares. Either you do not use some measurements "
+            "(a scan can contain three, and two new landmarks), or you use them for a part of the "
+            "state only, or P gets too much noise.",
+            _too_large,
+            asks="Your P is larger than that of least squares. Which measurements of a scan change "
+            "x and P, and where is noise added?",
+        ),
+        Diagnosis(
+            "too-small",
+            "Your P is smaller than that of least squares. Either you use a measurement twice, or "
+            "the noise of the control inputs or of the measurements is too small in your step.",
+            _too_small,
+            asks="Your P is smaller than that of least squares. How often, and with which "
+            "covariance, do a control input and a measurement enter it?",
         ),
     ),
     needs=("06-augment", "06-update"),

@@ -35,6 +35,7 @@ def _as_expected(rng):
 def _far_off(rng):
     inputs = sights(rng, 2, 2)
     inputs["z"][:, 0] += 4  # more than π: ranges are not to be wrapped
+    inputs["z"][:, 1] -= 2 * np.sign(inputs["z"][:, 1])  # more than π/2, but not beyond ±π
     return inputs
 
 
@@ -98,7 +99,7 @@ UPDATE = Task(
         Probe("a map of one landmark", lambda rng: sights(rng, 2, 1)),
         Probe("a map of six landmarks", lambda rng: sights(rng, 6, 6)),
         Probe("a measurement equal to the predicted one", _as_expected),
-        Probe("a range four metres longer than predicted", _far_off),
+        Probe("a measurement far from the predicted one", _far_off),
         Probe("uncorrelated errors", _uncorrelated),
     ),
     shapes=lambda inputs: {"x": inputs["x"].shape, "P": inputs["P"].shape},

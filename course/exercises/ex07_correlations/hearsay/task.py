@@ -114,7 +114,8 @@ HEARSAY = Task(
             _same("x"),
             want=_wanted("x"),
             asks="The errors of a landmark and of the robot are correlated. The robot's estimate "
-            "is corrected by 10 cm. By how much is the landmark's estimate corrected?",
+            "is corrected by 10 cm. By how much is the landmark's estimate corrected, and which "
+            "covariances determine this, those before or those after the measurements?",
             step=_follows,
         ),
         Law(

@@ -211,7 +211,8 @@ MORNINGS = Task(
             f"their number, is between {WAYS[0]} and {WAYS[1]}",
             _honest(_nees_ways, *WAYS),
             why=_honest_why(_nees_ways, "the distances between doors"),
-            asks="The errors of neighbouring doors are correlated. Is this correlation in your P?",
+            asks="Is your P too small or too large for the distance of two doors that were passed "
+            "on one morning, and which part of their errors does this distance not contain?",
             step=_within_a_morning,
         ),
         Law(
@@ -222,7 +223,8 @@ MORNINGS = Task(
             _honest(_nees_each, *EACH),
             why=_honest_why(_nees_each, "a single door"),
             asks="The readings of one door differ between mornings. What do these differences "
-            "show about the variance of the common errors?",
+            "show about the variance of the common errors, and how accurate is the mean of the "
+            "common errors of all mornings?",
             step=_between_mornings,
         ),
     ),
@@ -237,13 +239,13 @@ MORNINGS = Task(
         ),
         Diagnosis(
             "sure-of-where-it-lies",
-            "P is consistent for the distances between doors, but overconfident for each door by "
-            "itself. The position of the whole map has the error of the mean of the common "
-            "errors. The variance of the common errors is larger than the sample variance of the "
-            "mornings' means.",
+            "P is consistent for the distances between doors, but overconfident for single doors, "
+            "at least in half of the corridors. The position of the whole map has the error of the "
+            "mean of the common errors, and your variance of this error is too small there. A "
+            "constant is too small for some corridors, and so is a sample variance of estimates.",
             _adrift,
-            asks="By how much does the whole map move if all common errors are 10 cm larger? "
-            "Does your P contain this error?",
+            asks="By how much does the whole map move if all common errors are 10 cm larger? On "
+            "which of the arguments does your variance of this movement depend?",
         ),
     ),
     may_round=False,

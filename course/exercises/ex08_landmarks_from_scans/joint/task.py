@@ -245,8 +245,9 @@ JOINT = Task(
             "where two are compatible",
             lambda given, out: _own(given, out)[1],
             why=_why_distance,
-            asks="Stack the innovations of two pairs. Which numbers must be wrapped? Which errors "
-            "do the pairs have in common, which not, and where in S does each of them stand?",
+            asks="Do you return two pairs wherever two are compatible? If so, stack their "
+            "innovations: which numbers must be wrapped, which errors do the pairs have in common, "
+            "and where in S does each error stand?",
             step=_covariance,
         ),
         Law(

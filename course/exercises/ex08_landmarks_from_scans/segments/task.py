@@ -30,9 +30,10 @@ STEPS = {
     "nearly": (
         0.88,
         1.5,
-        "Are the labels near corners wrong? To which line do you assign an inlier of two lines?",
-        "Choose one corner. Print the distances of its nearest ten readings from both lines, and "
-        "their labels.",
+        "Which labels are wrong: those near corners, of clutter near a wall, or of a wall with two "
+        "labels?",
+        "Choose one wall and one of its corners. Print the labels of the wall's readings, and the "
+        "distances of the ten readings nearest to the corner from both lines.",
     ),
     "well": (
         0.92,

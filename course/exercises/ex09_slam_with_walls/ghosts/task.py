@@ -139,7 +139,8 @@ MISTAKES = (
     Diagnosis(
         "displaced",
         "Many false walls are displaced copies of real ones: nearly parallel to them, and less "
-        f"than {BESIDE[0]:g} m away. Does every wall that is observed again correct pose and map?",
+        f"than {BESIDE[0]:g} m away. Does every wall that is observed again correct pose and map, "
+        "and do you predict with drives[t − 1] before scan t?",
         _displaced,
         asks="Choose two nearly equal walls of your map. In which scan did the second one "
         "enter it, and how large was its distance from the first one?",
@@ -147,11 +148,12 @@ MISTAKES = (
     Diagnosis(
         "astray",
         "On average more than two walls of a map are false, and more than two are missing. They "
-        "may be the same walls at wrong positions, since odometry drifts. Does every confirmed "
-        "wall that is observed again correct the pose?",
+        "may be the same walls at wrong positions: because odometry drifts and a wall that is "
+        "observed again does not correct the pose, or because you return another frame than that "
+        "of the first pose x.",
         _turned,
         asks="Print σ of the heading after each scan. In which scans does it decrease, and "
-        "in which does it only grow?",
+        "in which frame are the walls that you return?",
     ),
     Diagnosis(
         "ghosts-kept",
@@ -163,11 +165,12 @@ MISTAKES = (
     ),
     Diagnosis(
         "walls-lost",
-        "Your maps have more missing walls than false ones. A miss is evidence against a wall only "
-        "while the wall is in view.",
+        "Your maps have more missing walls than false ones. Either you count misses while a wall "
+        "is not in view, or its measurements are not associated with it: do you wrap differences "
+        "of angles, and does your gate contain the errors of pose and wall?",
         lambda inputs, outputs: np.less(*wrong(inputs, outputs).mean(axis=0)),
         asks="In which scan does your code delete or reject a true wall? Is the wall in "
-        "view in this scan?",
+        "view in this scan, and with which wall do you associate its measurement?",
     ),
 )
 

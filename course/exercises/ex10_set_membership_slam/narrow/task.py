@@ -111,10 +111,11 @@ def _lesson_name(given):
 
 
 _ON_THE_WAY = {
-    "less": "Slice the interval of the heading into two halves, and call look for each half. "
-    "Compare both boxes with the box for the whole interval.",
-    "small": "Print the widths of box and heading after each round. From which round on do they no "
-    "longer change?",
+    "less": "Slice the interval of the heading into two halves, and process each half alone. "
+    "Compare both boxes with the box for the whole interval. If you already use slices, compare "
+    "with twice as many.",
+    "small": "Print the widths of box and heading after each round. If they no longer change, what "
+    "makes the edges of one slice wide?",
     "smallest": "Take one narrow piece of the heading. Draw all its edges, the polygon between "
     "them, and the box that your code uses in place of this polygon.",
 }
@@ -167,7 +168,8 @@ NARROW = Task(
         ),
         _step(
             "small",
-            "Box and heading are now smaller. Which step of your method can you repeat with them?",
+            "Do you repeat your method with the smaller box and heading? If you do, how many "
+            "slices has the heading, and what remains of the box after each edge?",
         ),
         _step(
             "smallest",
