@@ -128,7 +128,7 @@ NEVER_MET = Diagnosis(
 def _promised(inputs):
     w = inputs["wall"][:, 2:] - inputs["wall"][:, :2]
     t, s = crossing(inputs["p"], inputs["phi"], inputs["wall"])
-    clear = (np.minimum(abs(s), abs(s - 1)) > 0.002) & (abs(t) > 0.001)
+    clear = (np.minimum(abs(s), abs(s - 1)) > 9e-6) & (abs(t) > 0.001)
     return (np.hypot(*w.T) > 0.001) & (clear | (kinds(inputs) == "parallel"))
 
 

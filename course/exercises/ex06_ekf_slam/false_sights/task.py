@@ -47,6 +47,7 @@ FAR = 40  # d² beyond which every gate rejects a measurement
 MOST = np.sqrt(3)
 """Largest measurement error in σ; errors are uniform. With Gaussian errors a right gate rejects a
 correct measurement at a critical moment, and loses a robot, with one seed in a thousand."""
+STEADY = np.array([0.04, 0.02])  # σ of d, Δθ in runs without outliers
 COARSE = 5
 """How many times larger the measurement errors are in the runs without outliers."""
 LEAST = 0.5
@@ -307,10 +308,10 @@ FALSE_SIGHTS = Task(
         ),
     ),
     probes=(
-        Probe(FREE, lambda rng: runs(rng, behind=True), ("careful", "honest")),
+        Probe(FREE, lambda rng: runs(rng, behind=True, wheels=STEADY), ("careful", "honest")),
         Probe(
             COARSELY,
-            lambda rng: runs(rng, behind=True, eyes=COARSE * EYES),
+            lambda rng: runs(rng, behind=True, eyes=COARSE * EYES, wheels=STEADY),
             ("careful", "honest"),
         ),
     ),
