@@ -169,7 +169,7 @@ def _():
     for corner in [(x, y) for x in box[:2] for y in box[2:]]:
         ring = (2.2, 2.8), (direction - d_abs, direction + d_abs)
         views.boxes.sector(ax, corner, *ring, alpha=0.2)
-    views.draw(ax, Boxes("robot", [box]), color=views.COLOURS["truth"])
+    views.draw(ax, Boxes("robot's box", [box]), color=views.COLOURS["truth"])
     views.boxes.edges(ax, lines, ("far", "near", "left", "right"))
     views.legend(ax, loc="upper left")
     views.show(fig, alt="Four sectors of rings between your four edges.")
