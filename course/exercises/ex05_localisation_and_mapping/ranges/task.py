@@ -1,7 +1,5 @@
 """Task 05-ranges: beacons measure ranges to the robot's antenna, without bearings."""
 
-from dataclasses import replace
-
 import numpy as np
 
 from classroom.exercises.correctness_laws import Diagnosis, equals
@@ -135,13 +133,6 @@ COVARIANCE = equals(
     asks="Which shape has S with m beacons, and which entries of S contain sigma?",
     step=_on_the_way,
 )
-DIFFERENCES = differences(lambda inputs: {"P": want(inputs)["P"]})
-
-
-def _differences(inputs, outputs):
-    # an exact P needs an exact H
-    return DIFFERENCES.matches(inputs, outputs) and not COVARIANCE.holds(inputs, outputs).all()
-
 
 RANGES = Task(
     id="05-ranges",
@@ -191,7 +182,7 @@ RANGES = Task(
             lambda inputs, outputs: _ranges_exact(inputs, outputs, n=1),
             asks="Which covariance does the noise of two different ranges have in your S?",
         ),
-        replace(DIFFERENCES, matches=_differences),
+        differences(COVARIANCE.want, law=COVARIANCE),
     ),
     may_round=_promised,
     begins=(

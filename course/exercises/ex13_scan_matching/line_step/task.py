@@ -114,15 +114,20 @@ STEP = equals(
     "the robot's frame? What is the normal n in this frame?",
     step=_on_the_way,
 )
-COVARIANCE = equals(
-    "covariance",
-    2.5,
-    "P is the inverse of the information matrix of walls and odometry together",
-    lambda inputs: {"P": want(inputs)["P"]},
-    tolerance=EXACT,
-    asks="Without any correspondence, which matrix is P? What does each correspondence add "
-    "to the inverse of P?",
-    step=_on_the_way,
+COVARIANCE = _exact(
+    equals(
+        "covariance",
+        2.5,
+        "P is the inverse of the information matrix of walls and odometry together",
+        lambda inputs: {"P": want(inputs)["P"]},
+        tolerance=EXACT,
+        asks="Without any correspondence, which matrix is P? What does each correspondence add "
+        "to the inverse of P?",
+        step=_on_the_way,
+    ),
+    "P",
+    1e-13,
+    lambda right: _largest(right["P"]),
 )
 
 LINE_STEP = Task(
@@ -131,10 +136,7 @@ LINE_STEP = Task(
     call=CALLS["13-line-step"],
     inputs=pairs,
     shapes=lambda i: {"delta": (len(i["T"]), 3), "P": (len(i["T"]), 3, 3)},
-    laws=(
-        _exact(STEP, "delta", 3e-14, lambda right: 1.0),
-        _exact(COVARIANCE, "P", 1e-13, lambda right: _largest(right["P"])),
-    ),
+    laws=(_exact(STEP, "delta", 3e-14, lambda right: 1.0), COVARIANCE),
     probes=(
         Probe("a corridor", lambda rng: pairs(rng, 3, 10, spread=0)),
         Probe("no correspondences", lambda rng: pairs(rng, 2, 0)),
@@ -145,7 +147,7 @@ LINE_STEP = Task(
         Probe("walls along x and y, integer coordinates", _whole),
         Probe(NAME, _far),
     ),
-    diagnoses=tuple(differences(lambda i: {"P": want(i)["P"]}, on) for on in (NAME, MAIN)),
+    diagnoses=tuple(differences(COVARIANCE.want, on, law=COVARIANCE) for on in (NAME, MAIN)),
     parts=lambda inputs, outputs: {name: outputs[name] for name in ("delta", "P")},
     may_round=False,
     references=(Reference("line_step", "source target normals sigma T Q", want, "delta P"),),
