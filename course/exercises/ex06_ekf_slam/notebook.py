@@ -414,7 +414,7 @@ check("06-consistent")
 # | mean NEES of your last pose; a consistent filter has 3 | | | 0.5 to 15 | 0.5 to 7 |
 # | variances by your $P$, in units of those by the $P$ of the reference filter: median of the runs of the mean over all directions | | | | at least 0.975 |
 # | without outliers: variances by your mean $P$, in units of those of least squares, in every direction | | | 0.4 to 2.5 | 0.92 to 1.42 |
-# | without outliers: the same, on average over all directions | | | | 0.94 to 1.06 |
+# | without outliers: the same, on average over all directions | | | | 0.92 to 1.08 |
 # | without outliers: rms difference of $x$ from least squares | | | at most 1 σ | at most 0.77 σ |
 # | points | 0.5 | 1 | 1 | 1.5 |
 #

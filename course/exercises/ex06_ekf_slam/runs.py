@@ -21,10 +21,10 @@ WHEELS, EYES = np.array([0.15, 0.02]), np.array([0.06, 0.02])
 START = np.array([0.04, 0.05, 0.02])  # σ of the start [m, m, rad]
 
 
-def runs(rng, behind=False, eyes=EYES, wheels=WHEELS):
+def runs(rng, behind=False, eyes=EYES, wheels=WHEELS, draw=None):
     """Many runs on one trajectory; the last landmark is measured at the end only. ``behind``: the
     robot drives away from all landmarks and measures them at ±π. ``eyes`` and ``wheels``: σ of
-    measurements and of drives."""
+    measurements and of drives; ``draw``: as for :func:`measured`."""
     # The truth is in no array: errors have mean 0 over all runs, so that it is the runs' mean.
     start = np.array([*either_sign(rng, 0.5, 3, 2), either_sign(rng, 0.3, 2.5)])
     turns = either_sign(rng, 1, 1) * rng.uniform(0.1, 0.4, STEPS)
@@ -38,7 +38,7 @@ def runs(rng, behind=False, eyes=EYES, wheels=WHEELS):
     if behind:
         back = start[2] + np.pi + np.array([0.03, -0.02, 0.02, -0.03])
         p = start[:2] + far * np.column_stack([np.cos(back), np.sin(back)])
-    return measured(rng, start, drives, p, SCANS, (START, wheels, eyes))
+    return measured(rng, start, drives, p, SCANS, (START, wheels, eyes), draw=draw)
 
 
 def measured(rng, start, drives, p, scans, sigmas, kind=POINTS, draw=None):
