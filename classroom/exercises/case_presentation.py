@@ -161,7 +161,7 @@ PRESENTATIONS = {
     ),
     "12-relocalise": CasePresentation(
         "relocalise is called once for the whole run. Scan k consists of the first counts[k] rows "
-        "of `sights[k]`. It is given"
+        "of `measurements[k]`. It is given"
     ),
     "14-nodes": CasePresentation(shown=_cut("nodes")),
     "14-sweep": CasePresentation(shown=_sweep),
@@ -172,7 +172,7 @@ PRESENTATIONS = {
     "15-gate": CasePresentation(
         "gate_loop is given poses, H, the loop (*pair, z, information), and gates:"
     ),
-    "15-liars": CasePresentation(
+    "15-false-loops": CasePresentation(
         "close_loops is given poses, edges (k, k + 1, measured[k], information[k]), and loops "
         "from the rows of the other arrays:"
     ),

@@ -1094,7 +1094,7 @@ views.explore(
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
-    "15-liars",
+    "15-false-loops",
     "The graph has more than eighty right loops, and $\\Phi$ begins at the largest $\\chi^2$ of any loop. **What is the "
     "effect of all false loops?**",
     {
@@ -1108,7 +1108,7 @@ ask(
 )
 
 
-# %% slideshow={"slide_type": "subslide"} answers="15-liars" tags=["folded"]
+# %% slideshow={"slide_type": "subslide"} answers="15-false-loops" tags=["folded"]
 def annealed(iteration, first_phi):
     phi, weights, poses = (each[: iteration + 1] for each in twins.schedule(first_phi))
     words = f"largest error {twins.largest_error(poses[-1]):.1f} m"
@@ -1140,14 +1140,14 @@ views.explore(
     first_phi=slider("first Φ", [11.3, 100, 1000, *(10**k for k in (4, 5, 6, 7, 9))], 10**9),
 )
 
-# %% [markdown] slideshow={"slide_type": "fragment"} answers="15-liars"
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="15-false-loops"
 # Set the iteration to 0 and press ▶. While all loops have full weight, the map fits the false loops as well;
 # then most right loops lose their weight. Now reduce the first $\Phi$: from which value on is the map right,
 # and at which small value is it wrong again? The largest $\chi^2$ is that of the worst outlier, so an outlier
 # determines in how many iterations all loops have full weight.
 
 
-# %% slideshow={"slide_type": "subslide"} answers="15-liars"
+# %% slideshow={"slide_type": "subslide"} answers="15-false-loops"
 # the largest error by five methods: trusted, Huber, DCS from two first Φ, GNC in the library
 def errors_with(loops):
     graphs = [
@@ -1158,7 +1158,7 @@ def errors_with(loops):
     return [twins.largest_error(graph.poses) for graph in graphs]
 
 
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output", "nearly"] answers="15-liars"
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output", "nearly"] answers="15-false-loops"
 # none to all of the false loops, and every third of them alone
 right, single = twins.select_loops(0), np.flatnonzero(twins.false)[1::3]
 print("false loops   trusted   Huber   DCS from 10⁹   DCS from 10⁴   library")
@@ -1172,7 +1172,7 @@ ruined = (alone > 2).sum(axis=0)  # errors of more than 2 m
 row = "each alone {:7d} {:8d} {:13d} {:14d} {:10d}".format(*ruined)
 print(f"{row}    of {len(single)} maps ruined")
 
-# %% [markdown] slideshow={"slide_type": "subslide"} answers="15-liars"
+# %% [markdown] slideshow={"slide_type": "subslide"} answers="15-false-loops"
 # The last row adds a single false loop to all right loops: every third of the {= every =}, so {= len(single) =} maps.
 # We call a map with an error above 2 m *ruined*. Without a kernel {= ruined[0] =} of these loops ruin the map, with
 # Huber's kernel {= ruined[1] =}, and with DCS from 10⁹ {= ruined[2] =}. With DCS the result depends on the first $\Phi$: from 10⁹,
@@ -1186,7 +1186,7 @@ print(f"{row}    of {len(single)} maps ruined")
 # {= by_count[every][4]:.1f =} m. It also returns the **runner-up**: by how much the next solution costs more, and
 # how far away its poses are.
 
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output", "nearly"] answers="15-liars"
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output", "nearly"] answers="15-false-loops"
 for some_right in (84, 8, 3, 1):
     loops = np.concatenate(
         [right[:: len(right) // some_right][:some_right], np.flatnonzero(twins.false)[:3]]
@@ -1199,7 +1199,7 @@ for some_right in (84, 8, 3, 1):
     )
 print("the runner-up of the last: cost + {:.1f}, {:.1f} m away (rms)".format(*optimum.runner_up))
 
-# %% [markdown] slideshow={"slide_type": "fragment"} answers="15-liars"
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="15-false-loops"
 # In all four rows the false loops are rejected: they agree with each other (*perceptual aliasing*), but they
 # contradict the odometry, which counts as well. In the last row the result is **ambiguous**: the costs of two
 # different maps differ by less than $3\Phi$. Here the runner-up rejects the right loop, too, and only further

@@ -10,18 +10,18 @@ _SAMPLES = ["rows", "weights", "u", "C", "p", "z", "R", "rng"]
 ARGUMENT_NAMES = {
     "02-noise": ["ranges", "error", "dropouts", "rng"],
     "06-slam": _SLAM,
-    "06-false-sights": _SLAM,
+    "06-outliers": _SLAM,
     "08-pillar": ["points", "band", "largest", "needed", "tries", "rng"],
     "09-life": ["book", "seen", "N", "lives"],
-    "09-ghosts": ["x", "P", "drives", "C", "scans", "R", "far"],
+    "09-clean-map": ["x", "P", "us", "C", "scans", "R", "far"],
     "11-draw": ["weights", "rng"],
     "11-localise": _SAMPLES,
     "11-fastslam": ["rows", "weights", "p", "P", "u", "C", "z", "R", "rng"],
     "11-kidnapped": _SAMPLES,
-    "12-relocalise": ["start", "motions", "sights", "posts"],
+    "12-relocalise": ["start", "motions", "measurements", "posts"],
     "15-step": ["poses", "edges"],
     "15-gate": ["poses", "H", "loop", "gates"],
-    "15-liars": ["poses", "edges", "loops"],
+    "15-false-loops": ["poses", "edges", "loops"],
 }
 """Argument names in the notebook, by task id, if the inputs have other names."""
 

@@ -74,7 +74,7 @@ CALLS = {
     "03-capacitor": FunctionCall(
         ("capacitor",), named_results("F", "Q", "H", shape=_matrix_shapes)
     ),
-    "03-ghosts": FunctionCall(
+    "03-outliers": FunctionCall(
         ("wary_filter",), named_results("xs", "Ps", shape=_filter_shapes), seconds=20.0
     ),
 }

@@ -387,7 +387,7 @@ def _():
 
 # %%
 ask(
-    "ex03-ghost",
+    "ex03-outlier",
     "An outlier lies 4 m from the predicted range, and the Kalman filter uses it as a measurement. "
     "**What happens to its $P$?**",
     {
@@ -399,12 +399,12 @@ ask(
 )
 
 
-# %% name="ghosts"
-GHOSTS = 0.25  # probability that a reading is an outlier
+# %% name="outliers"
+OUTLIERS = 0.25  # probability that a reading is an outlier
 REACH = 10.0  # outliers are uniform between 0 and this [m]
 
 
-def ghost_drive(rng, steps=50):
+def run_with_outliers(rng, steps=50):
     """One run to and fro: the true states, and the arguments of wary_filter."""
     F, H = CART["F"], CART["H"]
     P, Q, R = np.diag([0.3, 0.2]) ** 2, np.diag([0.03, 0.08]) ** 2, np.array([[0.1**2]])
@@ -413,7 +413,7 @@ def ghost_drive(rng, steps=50):
     x = rng.multivariate_normal(truth[0], P)
     us = truth[1:] - truth[:-1] @ F.T + rng.multivariate_normal([0, 0], Q, steps)
     zs = truth[1:, :1] + rng.normal(0, 0.1, (steps, 1))
-    outliers = rng.random((steps, 1)) < GHOSTS
+    outliers = rng.random((steps, 1)) < OUTLIERS
     zs[outliers] = rng.uniform(0, REACH, outliers.sum())
     return truth[1:], (x, P, us, zs, F, Q, H, R)
 
@@ -425,7 +425,7 @@ def ghost_drive(rng, steps=50):
 # or outlier) by their likelihoods. You can also follow several hypotheses, or process rejected
 # readings again when later readings show that they were correct. The function gets the whole run at
 # once, and row $k$ of your result may depend on any reading, also on later ones. The check judges
-# only the results. Each row of `zs` contains one number. `GHOSTS` and `REACH` are the same in all
+# only the results. Each row of `zs` contains one number. `OUTLIERS` and `REACH` are the same in all
 # runs.
 #
 # The check runs your filter on 160 runs of 50 steps. The check ignores the first five steps of each
@@ -463,8 +463,8 @@ def wary_filter(x, P, us, zs, F, Q, H, R):
         v, S = (array.item() for array in innovation(x, P, z, H, R))
         K = P @ H[0] / S
         # density times prior probability, for both hypotheses: measurement and outlier
-        real = (1 - GHOSTS) * np.exp(-(v**2) / S / 2) / np.sqrt(2 * np.pi * S)
-        share = real / (real + GHOSTS / REACH)
+        real = (1 - OUTLIERS) * np.exp(-(v**2) / S / 2) / np.sqrt(2 * np.pi * S)
+        share = real / (real + OUTLIERS / REACH)
         # mean and covariance over both hypotheses: the distance between their means adds variance
         x = x + share * v * K
         apart = share * (1 - share) * v**2
@@ -476,16 +476,16 @@ def wary_filter(x, P, us, zs, F, Q, H, R):
 
 
 # %%
-check("03-ghosts")
+check("03-outliers")
 
 # %% [markdown]
 # The figure shows one run: the readings, your estimate and the true position.
 
 
-# %% name="among-ghosts"
+# %% name="among-outliers"
 @attempt
 def _():
-    truth, given = ghost_drive(np.random.default_rng(8))
+    truth, given = run_with_outliers(np.random.default_rng(8))
     xs, Ps = wary_filter(*given)
     seconds, two_sigma = 0.5 * np.arange(1, 51), 2 * np.sqrt(Ps[:, 0, 0])
     shown = {"your position": xs[:, 0]}

@@ -49,7 +49,7 @@ CALLS = {
         run=several_results("predict_wheels", x=(3,), P=(3, 3), A=(3, 3), W=(3, 2)),
     ),
     "04-camera": FunctionCall(("camera",), run=several_results("camera", u=(), H=(5,))),
-    "04-unsure-drive": FunctionCall(
-        ("unsure_drive",), run=several_results("unsure_drive", mean=(3,), covariance=(3, 3))
+    "04-moments": FunctionCall(
+        ("moments",), run=several_results("moments", mean=(3,), covariance=(3, 3))
     ),
 }

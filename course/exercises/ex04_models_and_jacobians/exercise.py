@@ -1,12 +1,12 @@
 """Exercise 04, models and Jacobians. In this order: ``generic`` (common functions), ``h_robot``,
-``jxr_jz``, ``wheels``, ``camera`` (linearised), ``scatter``, ``unsure_drive`` (beyond the
+``jxr_jz``, ``wheels``, ``camera`` (linearised), ``scatter``, ``moments`` (beyond the
 first order)."""
 
 from classroom.exercises.exercise import Exercise
 from course.exercises.ex04_models_and_jacobians.camera import task as camera
 from course.exercises.ex04_models_and_jacobians.h_robot import task as robot
 from course.exercises.ex04_models_and_jacobians.jxr_jz import task as place
-from course.exercises.ex04_models_and_jacobians.unsure_drive import task as unsure
+from course.exercises.ex04_models_and_jacobians.moments import task as moments
 from course.exercises.ex04_models_and_jacobians.wheels import task as wheels
 
 EXERCISE = Exercise(
@@ -22,5 +22,5 @@ EXERCISE = Exercise(
         "slamlab.layers",
     ),
     answers=("slamlab.models.jacobians", "slamlab.models.symbolic"),
-    tasks=(robot.TASK, place.TASK, wheels.TASK, camera.TASK, unsure.TASK),
+    tasks=(robot.TASK, place.TASK, wheels.TASK, camera.TASK, moments.TASK),
 )

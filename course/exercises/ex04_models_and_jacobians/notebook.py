@@ -418,7 +418,7 @@ attempt(lambda: show_drive(linearised, "linearised, 95 %"))
 
 
 # %%
-def unsure_drive(x, P, u, C):
+def moments(x, P, u, C):
     """Mean and covariance of the pose after a motion, more accurate than linearisation.
 
     x : (3,) pose;  P : (3, 3) its covariance;  u : (2,) distance d [m], turn Δθ [rad]
@@ -449,7 +449,7 @@ def unsure_drive(x, P, u, C):
 
 
 # %%
-check("04-unsure-drive")
+check("04-moments")
 
 # %% [markdown]
 # The figure shows your ellipse over the same 500 end points. It is wide along the direction of the
@@ -460,7 +460,7 @@ check("04-unsure-drive")
 # %%
 @attempt
 def _():
-    show_drive(unsure_drive, "yours, 95 %")
+    show_drive(moments, "yours, 95 %")
 
 
 # %% [markdown]

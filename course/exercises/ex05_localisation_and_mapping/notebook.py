@@ -126,7 +126,7 @@ def _():
 # ## 2 · EKF localisation: a whole run
 #
 # Each step of a run consists of a control input and then at most one measurement. After control
-# input `drives[k]` (counted from 0), the robot measured landmark `ids[k]` by `zs[k]`. If `ids[k]`
+# input `us[k]` (counted from 0), the robot measured landmark `ids[k]` by `zs[k]`. If `ids[k]`
 # is −1, the robot measured no landmark, and `zs[k]` has no meaning. `landmarks[id]` is the position
 # of a landmark.
 #
@@ -137,17 +137,17 @@ def _():
 
 
 # %%
-def localise(x, P, drives, ids, zs, landmarks, C, R):
+def localise(x, P, us, ids, zs, landmarks, C, R):
     """The belief of the pose after every step of a run.
 
-    x : (3,), P : (3, 3) at the start;  drives : (n, 2);  ids : (n,) int, -1: no measurement
+    x : (3,), P : (3, 3) at the start;  us : (n, 2);  ids : (n,) int, -1: no measurement
     zs : (n, 2);  landmarks : (N, 2), row id is the position of landmark id
-    C : (2, 2) covariance of each row of drives;  R : (2, 2) covariance of each row of zs
+    C : (2, 2) covariance of each row of us;  R : (2, 2) covariance of each row of zs
     returns xs (n, 3), Ps (n, 3, 3)
     """
     ### BEGIN SOLUTION
     xs, Ps = [], []
-    for u, id, z in zip(drives, ids, zs, strict=True):
+    for u, id, z in zip(us, ids, zs, strict=True):
         x, P = predict(x, P, u, C)
         if id >= 0:
             x, P = locate(x, P, z, landmarks[id], R)
@@ -170,7 +170,7 @@ def lap(seed, steps=60):
     """A lap in a room with five landmarks. The robot measures the nearest one if it is within 2.5
     m.
 
-    returns true poses (n, 3) after each drive, drives (n, 2), ids (n,), zs (n, 2), landmarks, C, R
+    returns true poses (n, 3) after each drive, us (n, 2), ids (n,), zs (n, 2), landmarks, C, R
     """
     rng = np.random.default_rng(seed)
     C, R = np.diag([0.03, 0.03]) ** 2, np.diag([0.1, 0.03]) ** 2
@@ -189,12 +189,12 @@ def lap(seed, steps=60):
 # %%
 @attempt
 def _():
-    true, drives, ids, zs, landmarks, C, R = lap(seed=5)
+    true, us, ids, zs, landmarks, C, R = lap(seed=5)
     blind = np.full(len(ids), -1)
     maps = {}
     for title, seen in {"no measurements": blind, "in a known map": ids}.items():
         start = np.zeros(3), np.diag([0.05, 0.05, 0.02]) ** 2
-        xs, Ps = localise(*start, drives, seen, zs, landmarks, C, R)
+        xs, Ps = localise(*start, us, seen, zs, landmarks, C, R)
         maps[title] = [
             layers.Poses("truth", true),
             layers.Poses("predicted" if seen is blind else "corrected", xs),
@@ -254,16 +254,16 @@ def update_landmark(p, P, x, z, R):
 
 
 # %%
-def alternate(x, P, drives, ids, zs, C, R):
+def alternate(x, P, us, ids, zs, C, R):
     """The beliefs of pose and landmarks in a run in an unknown map.
 
-    x : (3,), P : (3, 3) at the start;  drives : (n, 2);  ids : (n,) int, -1: no measurement
-    zs : (n, 2);  C : (2, 2) covariance of each row of drives;  R : (2, 2) of each row of zs
+    x : (3,), P : (3, 3) at the start;  us : (n, 2);  ids : (n,) int, -1: no measurement
+    zs : (n, 2);  C : (2, 2) covariance of each row of us;  R : (2, 2) of each row of zs
     returns xs (n, 3), Ps (n, 3, 3), and a dict: id -> (p (2,), P (2, 2))
     """
     ### BEGIN SOLUTION
     beliefs, xs, Ps = {}, [], []
-    for u, id, z in zip(drives, ids, zs, strict=True):
+    for u, id, z in zip(us, ids, zs, strict=True):
         x, P = predict(x, P, u, C)
         if id in beliefs:
             p, L = beliefs[id]
@@ -293,11 +293,11 @@ check("05-alternate")
 def _():
     P, NEES = np.diag([0.05, 0.05, 0.02]) ** 2, {"in the true map": [], "in your own map": []}
     for seed in range(20):
-        true, drives, ids, zs, landmarks, C, R = lap(seed)
+        true, us, ids, zs, landmarks, C, R = lap(seed)
         x = np.random.default_rng([seed, 1]).multivariate_normal(np.zeros(3), P)
         found = (
-            localise(x, P, drives, ids, zs, landmarks, C, R),
-            alternate(x, P, drives, ids, zs, C, R),
+            localise(x, P, us, ids, zs, landmarks, C, R),
+            alternate(x, P, us, ids, zs, C, R),
         )
         for values, (xs, Ps, *_) in zip(NEES.values(), found, strict=True):
             off = np.array(xs) - true
@@ -468,7 +468,7 @@ ask(
 
 
 # %%
-def find_yourself(x, P, drives, ids, zs, landmarks, C, R):
+def find_yourself(x, P, us, ids, zs, landmarks, C, R):
     """The beliefs after every step, with an unknown initial heading and outliers; arguments as of
     localise."""
     ### BEGIN SOLUTION
@@ -476,7 +476,7 @@ def find_yourself(x, P, drives, ids, zs, landmarks, C, R):
     poses = np.column_stack([np.tile(x[:2], (72, 1)), headings])
     # cost of each heading: innovations of the first measurements, with poses from odometry alone
     costs = []
-    for u, id, z in list(zip(drives, ids, zs, strict=True))[:20]:
+    for u, id, z in list(zip(us, ids, zs, strict=True))[:20]:
         poses = f_odometry(poses.T, u).T
         if id >= 0:
             v = z - h(poses, landmarks[id])
@@ -484,7 +484,7 @@ def find_yourself(x, P, drives, ids, zs, landmarks, C, R):
     x = np.array([x[0], x[1], headings[np.argmin(np.sum(costs, axis=0))]])
     P = P * [[1, 1, 0], [1, 1, 0], [0, 0, 0]] + np.diag([0, 0, 0.12**2])
     xs, Ps = [], []
-    for u, id, z in zip(drives, ids, zs, strict=True):
+    for u, id, z in zip(us, ids, zs, strict=True):
         x, P = predict(x, P, u, C)
         if id >= 0:
             v = z - h(x, landmarks[id])
@@ -524,9 +524,9 @@ def lost(seed, steps=40):
         lie = rng.random() < (0.5 if seen <= 4 else 0.3) or id < 0  # -1: z has no meaning
         z = false if lie else true
         data.append((x, rng.multivariate_normal(u, C), id, z))
-    way, drives, ids, zs = (np.array(part) for part in zip(*data, strict=True))
+    way, us, ids, zs = (np.array(part) for part in zip(*data, strict=True))
     start = np.array([*rng.normal(0, 0.2, 2), rng.uniform(-np.pi, np.pi)])
-    return way, start, np.diag([0.2, 0.2, 1.8]) ** 2, drives, ids, zs, landmarks, C, R
+    return way, start, np.diag([0.2, 0.2, 1.8]) ** 2, us, ids, zs, landmarks, C, R
 
 
 # %% name="found" answers="ex05-led"

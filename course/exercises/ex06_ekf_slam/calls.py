@@ -54,5 +54,5 @@ CALLS = {
     "06-update": FunctionCall(("update",), _call_update),
     "06-slam": SLAM_STEP,
     "06-consistent": FunctionCall(("consistency",), _call_consistency),
-    "06-false-sights": filter_call("careful_step"),
+    "06-outliers": filter_call("careful_step"),
 }

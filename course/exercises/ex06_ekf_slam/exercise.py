@@ -1,11 +1,11 @@
 """Exercise 06, EKF-SLAM. In this order: ``beliefs``, ``augment``, ``update`` (blocks of the
 filter), ``runs``, ``ends`` (whole runs and their judgement), ``slam``, ``consistent`` (NIS and
-NEES), ``false_sights`` (outliers)."""
+NEES), ``outliers`` (outliers)."""
 
 from classroom.exercises.exercise import Exercise
 from course.exercises.ex06_ekf_slam.augment.task import AUGMENT
 from course.exercises.ex06_ekf_slam.consistent.task import CONSISTENT
-from course.exercises.ex06_ekf_slam.false_sights.task import FALSE_SIGHTS
+from course.exercises.ex06_ekf_slam.outliers.task import OUTLIERS
 from course.exercises.ex06_ekf_slam.slam.task import SLAM
 from course.exercises.ex06_ekf_slam.update.task import UPDATE
 
@@ -13,7 +13,7 @@ EXERCISE = Exercise(
     id="06",
     notebook="06_ekf_slam",
     title="EKF-SLAM: the MAK filter",
-    tasks=(AUGMENT, UPDATE, SLAM, CONSISTENT, FALSE_SIGHTS),
+    tasks=(AUGMENT, UPDATE, SLAM, CONSISTENT, OUTLIERS),
     calls="course.exercises.ex06_ekf_slam.calls",
     allows=(
         "slamlab.geometry",

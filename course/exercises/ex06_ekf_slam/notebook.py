@@ -448,7 +448,7 @@ def careful_step(x, P, ids, u, seen, z, C, R):
 
 
 # %%
-check("06-false-sights")
+check("06-outliers")
 
 # %% [markdown]
 # If the log of Victoria Park is on this computer, the last cell runs your `slam_step` on its first 1000 lines: a car

@@ -87,10 +87,10 @@ def truth(inputs, kind=POINTS):
     off = inputs["z"] - first
     off[..., 1] = wrap(off[..., 1])
     z, landmarks = first + off.mean(axis=0), {}
-    for pose, seen, sights in zip(way, inputs["seen"].tolist(), z, strict=True):
-        for i, sight in zip(seen, sights, strict=True):
+    for pose, seen, observations in zip(way, inputs["seen"].tolist(), z, strict=True):
+        for i, observation in zip(seen, observations, strict=True):
             if i >= 0 and i not in landmarks:
-                landmarks[i] = kind.g(pose, sight)
+                landmarks[i] = kind.g(pose, observation)
     return start, drives, way, landmarks
 
 

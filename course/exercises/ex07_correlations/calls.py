@@ -12,10 +12,10 @@ def _call_two_updates(functions, inputs):
 def _call_correlated_update(functions, inputs):
     size = inputs["x"].shape[1]
     calls = [
-        functions["hearsay"](x, P, seen.astype(int), x_seen, P_seen)
+        functions["update_rest"](x, P, seen.astype(int), x_seen, P_seen)
         for x, P, seen, x_seen, P_seen in argument_rows(inputs)
     ]
-    return stack_values(calls, "hearsay", {"x": (size,), "P": (size, size)})
+    return stack_values(calls, "update_rest", {"x": (size,), "P": (size, size)})
 
 
 def _call_fuse(functions, inputs):
@@ -43,7 +43,7 @@ def _call_survey(functions, inputs):
 
 CALLS = {
     "07-two-updates": FunctionCall(("two_updates",), _call_two_updates),
-    "07-hearsay": FunctionCall(("hearsay",), _call_correlated_update),
+    "07-update-rest": FunctionCall(("update_rest",), _call_correlated_update),
     "07-fuse": FunctionCall(("fuse",), _call_fuse),
     "07-bound": FunctionCall(("lower_bound",), _call_lower_bound),
     "07-mornings": FunctionCall(("survey",), _call_survey),

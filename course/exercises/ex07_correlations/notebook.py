@@ -152,7 +152,7 @@ def _():
 
 
 # %%
-def hearsay(x, P, seen, x_seen, P_seen):
+def update_rest(x, P, seen, x_seen, P_seen):
     """Update of the whole state from a new estimate of some of its entries.
 
     x : (n,), P : (n, n) before;  seen : (k,) int, indices of the entries in view
@@ -167,7 +167,7 @@ def hearsay(x, P, seen, x_seen, P_seen):
 
 
 # %%
-check("07-hearsay")
+check("07-update-rest")
 
 # %% [markdown]
 # The next cell uses the loop of the lesson at the time of its loop closure, when the robot measures
@@ -194,8 +194,8 @@ def _():
     R = np.diag([loop.range_sigma, loop.bearing_sigma]) ** 2
     whole.update(ids, closing.observations.z, R)
     seen = np.array([0, 1, 2, *whole.rows(ids)])
-    told = whole.x[seen], whole.P[np.ix_(seen, seen)]
-    yours_x, yours_P = hearsay(x.copy(), P.copy(), seen, *told)
+    reported = whole.x[seen], whole.P[np.ix_(seen, seen)]
+    yours_x, yours_P = update_rest(x.copy(), P.copy(), seen, *reported)
     off = max(abs(yours_x - whole.x).max(), abs(yours_P - whole.P).max())
     print(f"in view: {ids}; largest difference from the whole filter: {off:.9f}")
 

@@ -81,7 +81,7 @@ def _book(value, column):
 
 def _call_clean_map(functions, inputs):
     maps = []
-    for x, controls, scans in zip(inputs["x"], inputs["drives"], inputs["scans"], strict=True):
+    for x, controls, scans in zip(inputs["x"], inputs["us"], inputs["scans"], strict=True):
         lists = [scan[scan[:, 0] < EMPTY] for scan in scans]
         P, C, R = (inputs[name][0].copy() for name in "PCR")
         value = functions["clean_map"](x.copy(), P, controls.copy(), C, lists, R, inputs["far"][0])
@@ -108,5 +108,5 @@ CALLS = {
     "09-end": FunctionCall(
         ("end_point",), _named_results(("p", "C", "X"), lambda n: ((2,), (2, 2), (2, n)))
     ),
-    "09-ghosts": FunctionCall(("clean_map",), _call_clean_map),
+    "09-clean-map": FunctionCall(("clean_map",), _call_clean_map),
 }

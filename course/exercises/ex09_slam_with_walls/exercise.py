@@ -1,12 +1,12 @@
 """Exercise 09, SLAM with walls.
 
 One task each: ``place`` (landmark initialisation), ``life`` (track management), ``merge``, ``end``
-and ``ghosts`` (a map without false walls); ``rooms``: runs for ``ghosts``.
+and ``clean_map`` (a map without false walls); ``rooms``: runs for ``clean_map``.
 """
 
 from classroom.exercises.exercise import Exercise
+from course.exercises.ex09_slam_with_walls.clean_map.task import CLEAN_MAP
 from course.exercises.ex09_slam_with_walls.end.task import END_POINT
-from course.exercises.ex09_slam_with_walls.ghosts.task import GHOSTS
 from course.exercises.ex09_slam_with_walls.life.task import LIFE
 from course.exercises.ex09_slam_with_walls.merge.task import MERGE
 from course.exercises.ex09_slam_with_walls.place.task import PLACE
@@ -15,7 +15,7 @@ EXERCISE = Exercise(
     id="09",
     notebook="09_slam_with_walls",
     title="SLAM with walls: line landmarks",
-    tasks=(PLACE, LIFE, MERGE, END_POINT, GHOSTS),
+    tasks=(PLACE, LIFE, MERGE, END_POINT, CLEAN_MAP),
     calls="course.exercises.ex09_slam_with_walls.calls",
     allows=("slamlab.geometry", "slamlab.layers", "slamlab.views"),
     answers=(

@@ -290,12 +290,12 @@ ask(
 @attempt
 def _():
     R, start = np.diag([0.01, 0.005]) ** 2, np.diag([0.2, 0.2, 0.005]) ** 2
-    for name, drives, z in (
+    for name, us, z in (
         ("a niche, in one scan", [], [2.1, 0.0]),
         ("both sides of a wall", [*[[1.0, 0.0]] * 4, [0.0, np.pi]], [2.1, 0.0]),
     ):
         x, P = add(np.zeros(3), start, np.array([2.0, 0.0]), R)
-        for u in drives:
+        for u in us:
             x, P = predict(x, P, u, np.diag([0.1, 0.002]) ** 2)
         x, P = add(x, P, np.array(z), R)
         sigmas = 100 * np.sqrt(np.diag(P)[[3, 5]])
@@ -447,11 +447,11 @@ ask(
 
 
 # %%
-def clean_map(x, P, drives, C, scans, R, far):
+def clean_map(x, P, us, C, scans, R, far):
     """The walls of a room; returns (k, 2): ρ, α of each in the world frame, in any order.
 
     x : (3,) pose at the start;  P : (3, 3)
-    drives : (t - 1, 2) control inputs d, Δθ, each of covariance C (2, 2)
+    us : (t - 1, 2) control inputs d, Δθ, each of covariance C (2, 2)
     scans : list of t arrays (m, 2), m = 0, 1, …: measurements ρ', α', each of covariance R (2, 2)
     far : float, maximum range of the sensor [m]
     """
@@ -459,7 +459,7 @@ def clean_map(x, P, drives, C, scans, R, far):
     found, way = np.zeros(0), []  # how many scans found each wall; the poses so far
     for t, scan in enumerate(scans):
         if t > 0:
-            x, P = predict(x, P, drives[t - 1], C)
+            x, P = predict(x, P, us[t - 1], C)
         for z in scan:
             alpha = x[4::2]
             expected = x[3::2] - x[0] * np.cos(alpha) - x[1] * np.sin(alpha)
@@ -483,7 +483,7 @@ def clean_map(x, P, drives, C, scans, R, far):
 
 
 # %%
-check("09-ghosts")
+check("09-clean-map")
 
 # %% [markdown]
 # The next cells show a run in a plain room with four walls. A cart stands in the room during twelve scans.
@@ -493,7 +493,7 @@ check("09-ghosts")
 def plain_drive(rng, C, R, far):
     """A run round a room: control inputs, scans, true poses, and the lines of four walls and a cart."""
     lines = np.array([[5, 0], [4, np.pi / 2], [4.5, np.pi], [4, -np.pi / 2], [1, np.pi / 2]])
-    way, drives, scans = [np.array([3, 0, np.pi / 2])], [], []
+    way, us, scans = [np.array([3, 0, np.pi / 2])], [], []
     for t in range(40):
         gap = lines[:, 0] - way[-1][:2] @ [np.cos(lines[:, 1]), np.sin(lines[:, 1])]
         stands = np.arange(5) < (5 if 20 < t < 33 else 4)
@@ -501,18 +501,18 @@ def plain_drive(rng, C, R, far):
         walls = np.column_stack([gap, lines[:, 1] - way[-1][2]])[there]
         z = np.vstack([walls, rng.uniform([0.3, -np.pi], [far, np.pi], (rng.integers(3), 2))])
         scans.append(z + rng.multivariate_normal([0, 0], R, len(z)))
-        drives.append(np.array([0.35 + 0.1 * abs(np.sin(t * np.pi / 20)), np.pi / 20]))
-        way.append(predict(way[-1], np.eye(3), drives[-1], C)[0])
-    return np.array(drives[:-1]) + rng.multivariate_normal([0, 0], C, 39), scans, way[:-1], lines
+        us.append(np.array([0.35 + 0.1 * abs(np.sin(t * np.pi / 20)), np.pi / 20]))
+        way.append(predict(way[-1], np.eye(3), us[-1], C)[0])
+    return np.array(us[:-1]) + rng.multivariate_normal([0, 0], C, 39), scans, way[:-1], lines
 
 
 # %%
 @attempt
 def _():
     rng, C, R = np.random.default_rng(5), np.diag([0.03, 0.035]) ** 2, np.diag([0.03, 0.015]) ** 2
-    drives, scans, way, lines = plain_drive(rng, C, R, 3.8)
+    us, scans, way, lines = plain_drive(rng, C, R, 3.8)
     P = np.diag([0.01, 0.01, 0.005]) ** 2
-    found = clean_map(way[0], P, drives, C, scans, R, 3.8)
+    found = clean_map(way[0], P, us, C, scans, R, 3.8)
     fig, ax = views.axes("Your map", size=(7, 5))
     for layer, label, rows in (("walls", "walls", lines[:4]), ("landmark", "your map", found)):
         ends = [

@@ -478,8 +478,8 @@ def narrow(robot, heading, objects, z, bounds):
         """Corners of all positions that agree with some heading of a piece."""
         x_min, x_max, y_min, y_max = robot
         corners = [(x_min, y_min), (x_max, y_min), (x_max, y_max), (x_min, y_max)]
-        for place, sight in zip(objects, z, strict=True):
-            for edge in edges(sight, bounds, np.add(piece, np.pi), np.repeat(place, 2)):
+        for place, z_object in zip(objects, z, strict=True):
+            for edge in edges(z_object, bounds, np.add(piece, np.pi), np.repeat(place, 2)):
                 corners = clip_polygon(corners, edge)
             if not corners:
                 break

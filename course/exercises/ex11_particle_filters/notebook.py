@@ -386,7 +386,7 @@ ask(
 # these are the 6 points of the task.
 
 # %%
-ROOM, REACH, GHOSTS = np.array([10.0, 8.0]), 10.0, 0.1
+ROOM, REACH, OUTLIERS = np.array([10.0, 8.0]), 10.0, 0.1
 
 
 # %%
@@ -403,15 +403,15 @@ def find_again(rows, weights, u, C, p, z, R, rng):
     r, beta = rng.multivariate_normal(z[0], R, n).T
     angle = rng.uniform(-np.pi, np.pi, n)
     x, y = p[0, 0] + r * np.cos(angle), p[0, 1] + r * np.sin(angle)
-    strangers = np.column_stack([x, y, wrap(angle + np.pi - beta)])
-    inside = np.all(np.abs(strangers[:, :2]) < ROOM / 2, axis=1)
+    random_particles = np.column_stack([x, y, wrap(angle + np.pi - beta)])
+    inside = np.all(np.abs(random_particles[:, :2]) < ROOM / 2, axis=1)
     # the proposal's density on the ring is likelihood / (2π r), a kidnapped robot's 1 / (area · 2π)
     real = np.exp(log_likelihoods(rows, p, z, R)) / (2 * np.pi * np.sqrt(np.linalg.det(R)))
-    seen = (1 - GHOSTS) * real + GHOSTS / (REACH * 2 * np.pi)
-    odd = (1 - GHOSTS) * inside * np.abs(r) / np.prod(ROOM) / n
+    seen = (1 - OUTLIERS) * real + OUTLIERS / (REACH * 2 * np.pi)
+    odd = (1 - OUTLIERS) * inside * np.abs(r) / np.prod(ROOM) / n
     together = np.concatenate([(1 - carried) * weights * seen, carried * odd])
     picked = draw(together / np.sum(together), rng)[rng.integers(2) :: 2]
-    return np.vstack([rows, strangers])[picked], np.full(n, 1 / n)
+    return np.vstack([rows, random_particles])[picked], np.full(n, 1 / n)
     ### END SOLUTION
 
 

@@ -350,28 +350,28 @@ def _():
 HALL = np.array([12.0, 4.0])  # [m]
 
 
-def offsets(poses, sights, posts):
+def offsets(poses, measurements, posts):
     """Vectors from each pose to each measured point, and from there to the nearest post: both (2, n, k)."""
-    turned = poses[:, 2:] + sights[:, 1]
-    arm = np.stack([sights[:, 0] * np.cos(turned), sights[:, 0] * np.sin(turned)])
+    turned = poses[:, 2:] + measurements[:, 1]
+    arm = np.stack([measurements[:, 0] * np.cos(turned), measurements[:, 0] * np.sin(turned)])
     place = arm + poses.T[:2, :, None]
     dx, dy = posts.T[:, None, None] - place[..., None]
     nearest = np.argmin(dx * dx + dy * dy, axis=2)
     return arm, posts.T[:, nearest] - place
 
 
-def fit(poses, sights, posts):
+def fit(poses, measurements, posts):
     """Log-likelihood of a scan at each pose, (n,).
 
     A measurement contributes about 0 at a post, and −4.6 far from all posts, as a false measurement does.
     """
-    _, (dx, dy) = offsets(poses, sights, posts)
+    _, (dx, dy) = offsets(poses, measurements, posts)
     return np.log(0.01 + np.exp(-(dx * dx + dy * dy) / 2 / 0.08**2)).sum(axis=1)
 
 
-def corrected(poses, sights, posts):
+def corrected(poses, measurements, posts):
     """Each pose (n, 3) after an update with the measurements that are within 0.3 m of a post."""
-    (ax, ay), (dx, dy) = offsets(poses, sights, posts)
+    (ax, ay), (dx, dy) = offsets(poses, measurements, posts)
     w = 400.0 * (dx * dx + dy * dy < 0.3**2)
     L, b = np.zeros((len(poses), 3, 3)), np.zeros((len(poses), 3, 1))
     L[:, 0, 0] = L[:, 1, 1] = 400 + w.sum(axis=1)
@@ -383,10 +383,13 @@ def corrected(poses, sights, posts):
     return poses + np.linalg.solve(L, b)[:, :, 0]
 
 
-def guesses(sights, posts):
+def guesses(measurements, posts):
     """All poses in the hall (n, 3) from which two of the measurements agree with two of the posts."""
-    x, y = sights[:, 0] * np.cos(sights[:, 1]), sights[:, 0] * np.sin(sights[:, 1])
-    i, j = np.triu_indices(len(sights), 1)
+    x, y = (
+        measurements[:, 0] * np.cos(measurements[:, 1]),
+        measurements[:, 0] * np.sin(measurements[:, 1]),
+    )
+    i, j = np.triu_indices(len(measurements), 1)
     a, b = np.nonzero(~np.eye(len(posts), dtype=bool))
     (sx, sy), (px, py) = (x[j] - x[i], y[j] - y[i]), (posts[b] - posts[a]).T
     seen, real = np.nonzero(np.abs(np.hypot(sx, sy)[:, None] - np.hypot(px, py)) < 0.1)
@@ -398,11 +401,11 @@ def guesses(sights, posts):
     return np.column_stack([at, theta])[((at > 0) & (at < HALL)).all(axis=1)]
 
 
-def track(start, motions, sights, posts):
+def track(start, motions, measurements, posts):
     """Pose tracking: each measurement is associated with the nearest post, if that is within 0.3 m."""
     pose, found = start[None], []
-    for told, seen in zip(motions, sights, strict=True):
-        pose = corrected(compose(pose, told), seen, posts)
+    for motion, seen in zip(motions, measurements, strict=True):
+        pose = corrected(compose(pose, motion), seen, posts)
         found.append(pose[0])
     return np.array(found)
 
@@ -450,10 +453,10 @@ ask(
 
 
 # %% name="relocalise"
-def relocalise(start, motions, sights, posts):
+def relocalise(start, motions, measurements, posts):
     """Poses of a run in which the robot is kidnapped once.
 
-    start : (3,);  motions : (steps, 3);  sights : list of (k, 2) ranges and bearings, k may be 0
+    start : (3,);  motions : (steps, 3);  measurements : list of (k, 2) ranges and bearings, k may be 0
     posts : (n, 2);  returns (steps, 3), the pose after each motion and its scan
     """
 
@@ -465,7 +468,7 @@ def relocalise(start, motions, sights, posts):
         return order[np.sort(np.unique(cells, axis=0, return_index=True)[1])][:20]
 
     poses, scores, found = start[None], np.zeros(1), []  # the best one first
-    for motion, z in zip(motions, sights, strict=True):
+    for motion, z in zip(motions, measurements, strict=True):
         poses = corrected(compose(poses, motion), z, posts)
         fits = fit(poses, z, posts)
         if fits[0] < -len(z):  # some phantoms, or elsewhere: other places may be as good
@@ -507,8 +510,8 @@ def _():
         c, s = np.cos(before[2]), np.sin(before[2])
         x, y = (pose - before)[:2]
         usual = len(motions) != 7  # in that step it is kidnapped, and its wheels roll 0.4 m
-        told = [c * x + s * y, c * y - s * x, wrap(pose[2] - before[2])] if usual else [0.4, 0, 0]
-        motions.append(told + rng.normal(0, [0.02, 0.01, 0.02]))
+        motion = [c * x + s * y, c * y - s * x, wrap(pose[2] - before[2])] if usual else [0.4, 0, 0]
+        motions.append(motion + rng.normal(0, [0.02, 0.01, 0.02]))
         off = posts - pose[:2]
         z = np.column_stack([np.hypot(*off.T), np.arctan2(off[:, 1], off[:, 0]) - pose[2]])
         z = z[(z[:, 0] < 2) & (rng.random(len(z)) < 0.8)]

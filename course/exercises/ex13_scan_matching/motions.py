@@ -47,8 +47,8 @@ def nearest(source, target):
 def matched(inputs, weights=lambda lengths: None):
     """{"result": (k, 3, 3)}: ICP for each row, with weights of the n correspondences (n,)."""
     found = []
-    for source, target, T, rounds, *c in zip(*inputs.values(), strict=True):
-        for _ in range(int(rounds)):
+    for source, target, T, iterations, *c in zip(*inputs.values(), strict=True):
+        for _ in range(int(iterations)):
             moved = carried(T, source)
             rows, lengths = nearest(moved, target)
             T = fit(moved, target[rows], weights(lengths, *c)) @ T
@@ -77,13 +77,13 @@ def _posts(rng, count):
     return rng.uniform(2, 2.5, (count, 1)) * np.column_stack([np.cos(angle), np.sin(angle)])
 
 
-def looks(rng, rounds, sizes=(36, 48), people=0, off=1.5, turn=(1.4, 2.8)):
-    """Two scans of a room: source (k, n, 2), target (k, m, 2), T (k, 3, 3), rounds (k,).
+def looks(rng, iterations, sizes=(36, 48), people=0, off=1.5, turn=(1.4, 2.8)):
+    """Two scans of a room: source (k, n, 2), target (k, m, 2), T (k, 3, 3), iterations (k,).
     people : number of further points of the source; off : error of the guess in units of 3 to 6°
     and 6 to 12 cm; turn : rotation between the scans [rad].
     """
     found = {"source": [], "target": [], "T": []}
-    for _ in rounds:
+    for _ in iterations:
         room = (outline if max(sizes) > FEW else _posts)(rng, max(sizes))
         T = motion(*either_sign(rng, 0.4, 1.5, 2), either_sign(rng, *turn))
         way = rng.uniform(0, 2 * np.pi)
@@ -96,4 +96,6 @@ def looks(rng, rounds, sizes=(36, 48), people=0, off=1.5, turn=(1.4, 2.8)):
         about = motion(*middle, off * either_sign(rng, np.radians(3), np.radians(6)))
         shift = off * rng.uniform(0.06, 0.12) * np.array([np.cos(way), np.sin(way)])
         found["T"].append(motion(*shift, 0) @ about @ motion(*-middle, 0) @ T)
-    return {name: np.array(made) for name, made in found.items()} | {"rounds": np.array(rounds)}
+    return {name: np.array(made) for name, made in found.items()} | {
+        "iterations": np.array(iterations)
+    }

@@ -126,7 +126,7 @@ def _():
 # current $T$, finds the nearest target point of each transformed point, computes the best motion of these correspondences,
 # and updates $T$ by it.
 #
-# **Your task.** Return $T$ after exactly the given number of iterations, `rounds`, which may be 0.
+# **Your task.** Return $T$ after exactly the given number of iterations, `iterations`, which may be 0.
 #
 # In this loop, `best_motion` gets a source that $T$ has already transformed. In which frame is the motion that it returns?
 # Is this motion the left or the right factor in the product with $T$?
@@ -136,15 +136,15 @@ def _():
 
 
 # %% name="icp"
-def icp(source, target, T, rounds):
+def icp(source, target, T, iterations):
     """Align a source cloud with a target cloud.
 
     source : (n, 2) [m];  target : (m, 2) [m], in another order, with another number of points
     T : (3, 3) initial guess of the motion that transforms the source
-    rounds : int, number of iterations;  returns T (3, 3) after these iterations
+    iterations : int, number of iterations;  returns T (3, 3) after these iterations
     """
     ### BEGIN SOLUTION
-    for _ in range(rounds):
+    for _ in range(iterations):
         moved = carry(T, source)
         _, rows = nearest(moved, target)
         T = best_motion(moved, target[rows]) @ T
@@ -157,7 +157,7 @@ check("13-icp")
 
 # %%
 ask(
-    "ex13-rounds",
+    "ex13-iterations",
     "The next cell uses the two scans of the lesson's polygon. Between them the robot turned by −45° and drove "
     "27 cm. Its odometry is wrong: it measures −35° and 15 cm. **After how many iterations of ICP do you see "
     "no more change?**",
@@ -194,22 +194,22 @@ def polygon_scans(seed):
     return [RPLIDAR_A2.scan(worlds.polygon(), pose(T), rng).points() for T in (np.eye(3), TRUE)]
 
 
-# %% name="rounds" answers="ex13-rounds"
+# %% name="iterations" answers="ex13-iterations"
 @attempt
 def _():
     scans = polygon_scans(seed=1)
 
-    def draw(rounds):
-        T = icp(scans[1], scans[0], WRONG, rounds)
+    def draw(iterations):
+        T = icp(scans[1], scans[0], WRONG, iterations)
         off = pose(T) - pose(TRUE)
         error = f"{1000 * np.hypot(*off[:2]):.0f} mm and {abs(np.degrees(off[2])):.1f}°"
-        title = f"iteration {rounds}: error {error}"
+        title = f"iteration {iterations}: error {error}"
         return views.overlay(scans[0], carry(T, scans[1]), title=title)[0]
 
-    views.explore(draw, alt="Both scans after some iterations of ICP.", rounds=(0, 20, 4))
+    views.explore(draw, alt="Both scans after some iterations of ICP.", iterations=(0, 20, 4))
 
 
-# %% [markdown] answers="ex13-rounds"
+# %% [markdown] answers="ex13-iterations"
 # The first two iterations correct most of the translation, but the rotation needs about fifteen. Then hardly anything changes,
 # but an error of 9 mm and 0.7° remains. The robot saw some walls from one pose only, and ICP gives their points a correspondence
 # all the same.
@@ -229,7 +229,7 @@ def _():
 #
 # **Your task.** Extend ICP by this kernel, with the same $c$ in all iterations. In each one, find all correspondences again, compute
 # the weights from their lengths, and update $T$ by the motion that minimises the weighted sum. `best_motion` knows no weights: which parts of its
-# derivation in the lesson change? Some correspondences have the length zero. `rounds` may be 0, and $c$ lies between 1 cm and
+# derivation in the lesson change? Some correspondences have the length zero. `iterations` may be 0, and $c$ lies between 1 cm and
 # 100 m. Each entry of $T$ may have an error of $10^{-5}$ of the largest entry:
 #
 # | required | points |
@@ -239,14 +239,14 @@ def _():
 
 
 # %% name="robust-icp"
-def robust_icp(source, target, T, rounds, c):
+def robust_icp(source, target, T, iterations, c):
     """ICP with the kernel of Geman and McClure, by iteratively reweighted least squares.
 
-    source, target, T, rounds : as for icp;  c : float, length of an ordinary correspondence [m]
+    source, target, T, iterations : as for icp;  c : float, length of an ordinary correspondence [m]
     returns T (3, 3)
     """
     ### BEGIN SOLUTION
-    for _ in range(rounds):
+    for _ in range(iterations):
         moved = carry(T, source)
         distances, rows = nearest(moved, target)
         w = 1 / (1 + (distances / c) ** 2) ** 2
@@ -286,9 +286,9 @@ ask(
 def _():
     scans = polygon_scans(seed=1)
     people = np.random.default_rng(2).uniform([0.1, 0.5], [0.6, 0.9], (60, 2))
-    crowd = np.vstack([scans[1], people])
+    with_people = np.vstack([scans[1], people])
     for c in (0.01, 0.02, 0.05, 0.1, 0.2, 1.0, 10.0):
-        off = pose(robust_icp(crowd, scans[0], WRONG, 60, c)) - pose(TRUE)
+        off = pose(robust_icp(with_people, scans[0], WRONG, 60, c)) - pose(TRUE)
         print(
             f"c = {c:5.2f} m: error {1000 * np.hypot(*off[:2]):4.0f} mm "
             f"and {abs(np.degrees(off[2])):4.1f}°"

@@ -44,7 +44,7 @@ def call_nodes(functions, inputs):
 
 def call_sweep(functions, inputs):
     """Call "sweep"; return {"taken": (n,) 0 for None, "count": (n,) numbers of rows, "rays":
-    (n, m, 2), `heard`: (n,) bytes}.
+    (n, m, 2), `received`: (n,) bytes}.
     """
     found = []
     for (data,) in argument_rows(inputs):
@@ -56,7 +56,7 @@ def call_sweep(functions, inputs):
     rays, count = _pad(tables, inputs["data"].shape[1] // 3)
     # with the number of bytes, refusing all packets is a mistake and not a degenerate answer
     length = (inputs["data"] >= 0).sum(axis=1).astype(float)
-    return {"taken": taken, "count": count, "rays": rays, "heard": length}
+    return {"taken": taken, "count": count, "rays": rays, "received": length}
 
 
 def call_deskew(functions, inputs):

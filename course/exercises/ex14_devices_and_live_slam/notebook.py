@@ -90,8 +90,8 @@ def points(degrees, millimetres):
     return np.column_stack([r * np.cos(angle), r * np.sin(angle)])
 
 
-# %% name="heard"
-def heard(world, seconds):
+# %% name="received"
+def received(world, seconds):
     """The nodes that an emulated lidar at the world's origin sends after SCAN, without the answer's header."""
     from slamlab.devices.emulator.motion_distortion import MovingLidar
     from slamlab.devices.emulator.emulated_robot import EmulatedRobot
@@ -115,7 +115,7 @@ def heard(world, seconds):
 @attempt
 def _():
     world = worlds.polygon()
-    turn = nodes(heard(world, 0.2))
+    turn = nodes(received(world, 0.2))
     begin, end = np.flatnonzero(turn[:, 0])[:2]
     print(
         f"{end - begin} nodes from one S to the next, {np.sum(turn[:, 3] == 0)} nodes without an echo"
@@ -318,11 +318,11 @@ def _():
 
     emir = EmirEmulator(EmulatedRobot(worlds.corridor(), np.random.default_rng(1)))
     emir.feed(info(True), 0.0)
-    said = []
+    replies = []
     for begin, speed, seconds in ((0, 100, 10), (10, -50, 10)):
         emir.feed(move(speed, 0), begin)
-        said += [emir.feed(b"", begin + 0.1 * k) for k in range(1, 10 * seconds + 1)]
-    bytes_14 = [int(text[29:31], 16) for text in said if len(text) == 36]
+        replies += [emir.feed(b"", begin + 0.1 * k) for k in range(1, 10 * seconds + 1)]
+    bytes_14 = [int(text[29:31], 16) for text in replies if len(text) == 36]
     path = np.array([byte - 256 if byte > 127 else byte for byte in bytes_14])
     counts = {"unwrapped": unwrap(path), "as sent": path}
     time = 0.1 * np.arange(len(path))

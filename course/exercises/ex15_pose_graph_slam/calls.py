@@ -69,5 +69,5 @@ CALLS = {
     "15-step": FunctionCall(("step",), _call_step),
     "15-range": FunctionCall(("range_edge",), _call_range_edge),
     "15-gate": FunctionCall(("gate_loop",), _call_gate_loop),
-    "15-liars": FunctionCall(("close_loops",), _call_close_loops),
+    "15-false-loops": FunctionCall(("close_loops",), _call_close_loops),
 }

@@ -445,7 +445,7 @@ def weight(chi2, phi):
 # non-convexity).
 
 
-# %% name="liar"
+# %% name="false-loop"
 @attempt
 def _():
     start, edges = hall()
@@ -523,7 +523,7 @@ def _():
 # and of loops, loops have any order, and all loops of a run may be true.
 
 
-# %% name="liars"
+# %% name="false-loops"
 def close_loops(poses, edges, loops):
     """The map of a run in which some loops may be false; pose 0 is fixed.
 
@@ -592,7 +592,7 @@ def close_loops(poses, edges, loops):
 
 
 # %%
-check("15-liars")
+check("15-false-loops")
 
 # %% [markdown]
 # The next cell tests your method on a run with ground truth, and draws each loop that agrees with your

@@ -97,7 +97,7 @@ def test_a_law_that_earns_nothing_alone_earns_beside_another():
 
 
 def test_no_task_accepts_counts_that_a_worker_forged():
-    task = catalogue.task("09-ghosts")
+    task = catalogue.task("09-clean-map")
     sets = task.draw_inputs(b"a seed")
     count = len(sets[MAIN]["x"])
     for counts in (-np.arange(1.0, count + 1), np.arange(count) - 0.5, np.arange(float(count))):

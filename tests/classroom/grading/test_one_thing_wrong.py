@@ -75,8 +75,8 @@ ONE_THING_WRONG = {
         {"dropouts", "seed"},
     ),
     "nobody asks how honest a filter is that is far off": (
-        "03-ghosts",
-        changed("03-ghosts", "out = out[0] + [0.5, 0], out[1]"),
+        "03-outliers",
+        changed("03-outliers", "out = out[0] + [0.5, 0], out[1]"),
         {"better", "close"},
     ),
     "nobody asks how a map errs that is none": (
@@ -97,7 +97,7 @@ def test_one_thing_wrong_breaks_no_law_that_speaks_of_another(what):
 
 
 def test_the_distance_of_a_robot_does_not_depend_on_P():
-    one = OF["06-false-sights"]
+    one = OF["06-outliers"]
     sets = one.task.draw_inputs(OPEN_SEED)
     answers = one.outputs(one.ways[SOLUTION], sets)
     for factor, laws in ((100, {"careful", "honest"}), (0.01, {"careful", "honest"})):
@@ -108,11 +108,11 @@ def test_the_distance_of_a_robot_does_not_depend_on_P():
 @pytest.mark.parametrize(
     ("id", "by"),
     [
-        ("03-ghosts", "out = out[0], 0 * np.array(out[1])"),
-        ("04-unsure-drive", "out = out[0], 0 * out[1]"),
+        ("03-outliers", "out = out[0], 0 * np.array(out[1])"),
+        ("04-moments", "out = out[0], 0 * out[1]"),
         ("05-lost", "out = out[0], 0 * out[1]"),
         ("06-slam", "out = out[0], 0 * out[1], out[2]"),
-        ("06-false-sights", "out = out[0], 0 * out[1], out[2]"),
+        ("06-outliers", "out = out[0], 0 * out[1], out[2]"),
         ("07-mornings", "out = out[0], 0 * out[1]"),
     ],
 )
@@ -127,8 +127,8 @@ def test_an_invalid_covariance_P_is_reported(id, by):
 
 def test_for_an_answer_that_only_changes_its_arguments_nothing_else_is_reported():
     at = "t = np.linspace(-6, 6, 25)"
-    changing = edited("04-unsure-drive", (at, f"P[0, 0] += 1e-12\n    {at}"))
-    verdict = OF["04-unsure-drive"].verdict(changing, OPEN_SEED)
+    changing = edited("04-moments", (at, f"P[0, 0] += 1e-12\n    {at}"))
+    verdict = OF["04-moments"].verdict(changing, OPEN_SEED)
     assert broken(verdict) == {"unchanged"}
     assert verdict.diagnosis is None
 
@@ -267,7 +267,7 @@ def test_matrices_that_are_not_rigid_motions_are_not_reported_as_off():
 
 def test_the_maps_that_the_law_counts_are_counted():
     case = explained_verdict(
-        "15-liars", "def close_loops(poses, edges, loops):\n    return poses * 1"
+        "15-false-loops", "def close_loops(poses, edges, loops):\n    return poses * 1"
     ).case
     few, of = re.search(r"(\d+) of (\d+) maps have an rms error below 0.9 m", case).groups()
     assert int(few) < int(of) / 2

@@ -19,16 +19,16 @@ def wary_filter(x, P, us, zs, F, Q, H, R):
     return xs, Ps
 """
 WHO = {
-    "takes in what is far off": ("03-ghosts", "v[0]**2 > 9 * S[0, 0]", "turned-round"),
-    "refuses ghosts on one side": ("03-ghosts", "v[0] < 3 * S[0, 0]**0.5", "one-sided"),
-    "refuses by R alone": ("03-ghosts", "v[0]**2 < R[0, 0]", "refuses"),
-    "takes in half of everything": ("03-ghosts", "one-share", "alike"),
+    "takes in what is far off": ("03-outliers", "v[0]**2 > 9 * S[0, 0]", "turned-round"),
+    "refuses outliers on one side": ("03-outliers", "v[0] < 3 * S[0, 0]**0.5", "one-sided"),
+    "refuses by R alone": ("03-outliers", "v[0]**2 < R[0, 0]", "refuses"),
+    "takes in half of everything": ("03-outliers", "one-share", "alike"),
     "does not use the dock": ("01-home", "dock not used", "not in the dock"),
     "leaps into the dock": ("01-home", "rows at the dock only", "leaps home"),
     "leaves the way beyond": ("01-home", "way beyond not mended", "lost beyond"),
-    "trusts the wheels": ("04-unsure-drive", "wheels-trusted", "wheels-trusted"),
-    "trusts all loops": ("15-liars", "all-trusted", "all-pull"),
-    "trusts no loop": ("15-liars", "refused-without-drift", "none-used"),
+    "trusts the wheels": ("04-moments", "wheels-trusted", "wheels-trusted"),
+    "trusts all loops": ("15-false-loops", "all-trusted", "all-pull"),
+    "trusts no loop": ("15-false-loops", "refused-without-drift", "none-used"),
 }
 """Task, what its gate holds for near or the name of a mistake, and the diagnosis."""
 
@@ -45,4 +45,4 @@ def test_a_property_of_an_answer_is_reported(who):
 
 
 def test_control_inputs_that_are_left_out_are_reported():
-    diagnosed("03-ghosts", edited("03-ghosts", ("        x = x + u\n", "")), "no-push")
+    diagnosed("03-outliers", edited("03-outliers", ("        x = x + u\n", "")), "no-push")

@@ -1,8 +1,8 @@
 # %% way: gains
-def alternate(x, P, drives, ids, zs, C, R):
+def alternate(x, P, us, ids, zs, C, R):
     marks, history = {}, []
     for k in range(len(ids)):
-        x, P = predict(x, P, drives[k], C)
+        x, P = predict(x, P, us[k], C)
         i = int(ids[k])
         if i >= 0 and i not in marks:
             J = np.hstack([J_xr(x, zs[k]), J_z(x, zs[k])])
@@ -23,9 +23,9 @@ def alternate(x, P, drives, ids, zs, C, R):
     return np.array(xs), np.array(Ps), marks
 
 # %% way: the noise of a new landmark as that of an old one
-def alternate(x, P, drives, ids, zs, C, R):
+def alternate(x, P, us, ids, zs, C, R):
     beliefs, xs, Ps = {}, [], []
-    for u, id, z in zip(drives, ids, zs):
+    for u, id, z in zip(us, ids, zs):
         x, P = predict(x, P, u, C)
         if id >= 0:
             p, L = beliefs.get(id, (g(x, z), None))
@@ -52,9 +52,9 @@ class Mark:
         H = H_robot(x, self.p)
         self.p, self.L = update_landmark(self.p, self.L, x, z, R + H @ P @ H.T)
 
-def alternate(x, P, drives, ids, zs, C, R):
+def alternate(x, P, us, ids, zs, C, R):
     book, xs, Ps = {}, [], []
-    for u, i, z in zip(drives, ids, zs):
+    for u, i, z in zip(us, ids, zs):
         x, P = predict(x, P, u, C)
         x_prior, P_prior = x, P
         if i in book:
@@ -67,9 +67,9 @@ def alternate(x, P, drives, ids, zs, C, R):
     return np.array(xs), np.array(Ps), {i: (m.p, m.L) for i, m in book.items()}
 
 # %% right: information of the landmark
-def alternate(x, P, drives, ids, zs, C, R):
+def alternate(x, P, us, ids, zs, C, R):
     xs, Ps, book = np.zeros((len(ids), 3)), np.zeros((len(ids), 3, 3)), dict()
-    for k, (u, i, z) in enumerate(zip(drives, ids, zs)):
+    for k, (u, i, z) in enumerate(zip(us, ids, zs)):
         x, P = predict(x, P, u, C)
         if i >= 0:
             if i in book:

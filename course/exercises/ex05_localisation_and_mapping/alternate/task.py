@@ -6,7 +6,10 @@ from classroom.exercises.correctness_laws import equals, once
 from classroom.exercises.task import Probe, Task
 from course.exercises.ex05_localisation_and_mapping.calls import CALLS
 from course.exercises.ex05_localisation_and_mapping.localise.task import behind, runs
-from course.exercises.ex05_localisation_and_mapping.sights import filtered, with_wrapped_heading
+from course.exercises.ex05_localisation_and_mapping.observations import (
+    filtered,
+    with_wrapped_heading,
+)
 from slamlab import models
 from slamlab.geometry import wrap
 from slamlab.models import jacobians
@@ -31,10 +34,10 @@ def _all_new(rng):
     return inputs | {"ids": np.tile([7, 3, 0, 12, 5], (2, 1))}
 
 
-def _turned(x, P, drives, ids, zs, C, R):
+def _turned(x, P, us, ids, zs, C, R):
     """Beliefs of one run: xs, Ps, p and L by ascending ids; S of the first repeated measurement."""
     found, xs, Ps, first = {}, [], [], None
-    for u, id, z in zip(drives, ids, zs, strict=True):
+    for u, id, z in zip(us, ids, zs, strict=True):
         none = np.array([-1])
         (x,), (P,) = filtered(x, P, u[None], none, z[None], (), C, R)
         if id in found:

@@ -5,7 +5,7 @@ import numpy as np
 from classroom.exercises.correctness_laws import equals, once
 from classroom.exercises.task import Probe, Task
 from course.exercises.ex05_localisation_and_mapping.calls import CALLS
-from course.exercises.ex05_localisation_and_mapping.sights import (
+from course.exercises.ex05_localisation_and_mapping.observations import (
     beliefs,
     covariances,
     driven,
@@ -27,8 +27,8 @@ def runs(rng, rows=5, steps=7, landmarks=4, unseen=2, step=(0.4, 0.7), turn=1):
 def _run(rng, steps, landmarks, unseen, step, turn):
     (x,), (P,) = beliefs(rng, 1)
     turns = turn * either_sign(rng, 1, 1) * rng.uniform(0.2, 0.5, steps)
-    drives = np.column_stack([rng.uniform(*step, steps), turns])
-    way = driven(x, drives)
+    us = np.column_stack([rng.uniform(*step, steps), turns])
+    way = driven(x, us)
     around = (np.arange(landmarks) + 0.6 * rng.random(landmarks)) * 2 * np.pi / landmarks
     far = rng.uniform(3.5, 5, (landmarks, 1))
     places = way[:, :2].mean(axis=0) + far * np.column_stack([np.cos(around), np.sin(around)])
@@ -42,14 +42,14 @@ def _run(rng, steps, landmarks, unseen, step, turn):
     C = covariances(rng, rng.uniform(0.03, 0.06, (1, 2)))[0]
     R = covariances(rng, rng.uniform(0.04, 0.08, (1, 2)))[0]
     return {
-        "x": x, "P": P, "drives": drives, "ids": ids, "zs": zs, "landmarks": places, "C": C, "R": R,
+        "x": x, "P": P, "us": us, "ids": ids, "zs": zs, "landmarks": places, "C": C, "R": R,
     }  # fmt: skip
 
 
 def behind(rng):
     """Straight runs away from a landmark, whose bearings are near ±π."""
     inputs = runs(rng, 2, 5, 1, 0, turn=0)
-    x, d = inputs["x"], inputs["drives"][..., 0].cumsum(axis=1)
+    x, d = inputs["x"], inputs["us"][..., 0].cumsum(axis=1)
     inputs["landmarks"] = models.g(x, np.tile([2.0, np.pi], (2, 1)))[:, None]
     off = np.tile([0.03, -0.03, 0.05, -0.04, 0.03], (2, 1))
     inputs["zs"] = np.stack([2 + d, wrap(np.pi + off)], axis=-1)

@@ -6,7 +6,7 @@ from classroom.exercises.correctness_laws import equals
 from classroom.exercises.references import Reference
 from classroom.exercises.task import Probe, Task
 from course.exercises.ex05_localisation_and_mapping.calls import CALLS
-from course.exercises.ex05_localisation_and_mapping.sights import (
+from course.exercises.ex05_localisation_and_mapping.observations import (
     T,
     beliefs,
     covariances,
@@ -19,7 +19,7 @@ from slamlab.geometry import wrap
 from slamlab.models import jacobians
 
 
-def sights(rng, rows=8, far=(1.5, 5), behind=False):
+def observations(rng, rows=8, far=(1.5, 5), behind=False):
     """Uncertain poses and measurements of a known landmark, beside the robot or right behind it."""
     x, P = beliefs(rng, rows)
     side = np.where(np.arange(rows) % 2, 1.0, -1.0)  # both, whatever is drawn
@@ -35,23 +35,23 @@ def sights(rng, rows=8, far=(1.5, 5), behind=False):
 
 
 def _as_expected(rng):
-    inputs = sights(rng, 2)
+    inputs = observations(rng, 2)
     return inputs | {"z": models.h(inputs["x"], inputs["p"])}
 
 
 def _far_off(rng):
-    inputs = sights(rng, 2)
+    inputs = observations(rng, 2)
     inputs["z"][:, 0] += 4  # more than π: ranges are not to be wrapped
     return inputs
 
 
 def _unrelated(rng):
-    inputs = sights(rng, 2)
+    inputs = observations(rng, 2)
     return inputs | {"P": inputs["P"] * np.eye(3), "R": inputs["R"] * np.eye(2)}
 
 
 def _along_the_axes(rng):
-    inputs = sights(rng, 4)
+    inputs = observations(rng, 4)
     inputs["x"] = np.array([[0.0, 0, 0], [1, 2, 1], [0, 0, -2], [2, 1, 0]])
     ways = np.array([[3.0, 0], [0, 2], [-2, 0], [0, -4]])
     inputs["p"] = inputs["x"][:, :2] + ways
@@ -61,7 +61,7 @@ def _along_the_axes(rng):
 
 
 def _opposite(rng):
-    inputs = sights(rng, 2)
+    inputs = observations(rng, 2)
     inputs["z"][:, 1] = wrap(inputs["z"][:, 1] + either_sign(rng, 2.0, 2.9, 2))
     return inputs
 
@@ -98,11 +98,11 @@ LOCATE = Task(
     id="05-locate",
     title="Update of the pose: one known landmark",
     call=CALLS["05-locate"],
-    inputs=sights,
+    inputs=observations,
     probes=(
         Probe(
             "a landmark right behind the robot",
-            lambda rng: sights(rng, 4, behind=True),
+            lambda rng: observations(rng, 4, behind=True),
             ("behind", "covariance"),
         ),
         Probe("a bearing to the opposite side", _opposite, ("behind", "covariance")),
@@ -110,8 +110,8 @@ LOCATE = Task(
         Probe("a range four metres longer than predicted", _far_off),
         Probe("uncorrelated errors", _unrelated),
         Probe("landmarks along the axes", _along_the_axes),
-        Probe("a landmark half a metre away", lambda rng: sights(rng, 2, far=(0.4, 0.6))),
-        Probe("a landmark fifty metres away", lambda rng: sights(rng, 2, far=(45, 55))),
+        Probe("a landmark half a metre away", lambda rng: observations(rng, 2, far=(0.4, 0.6))),
+        Probe("a landmark fifty metres away", lambda rng: observations(rng, 2, far=(45, 55))),
     ),
     shapes=lambda inputs: {"x": inputs["x"].shape, "P": inputs["P"].shape},
     parts=with_wrapped_heading("x"),

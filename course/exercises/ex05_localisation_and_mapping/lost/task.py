@@ -5,7 +5,7 @@ import numpy as np
 from classroom.exercises.correctness_laws import Diagnosis, Law, once
 from classroom.exercises.task import Probe, Task
 from course.exercises.ex05_localisation_and_mapping.calls import CALLS
-from course.exercises.ex05_localisation_and_mapping.sights import (
+from course.exercises.ex05_localisation_and_mapping.observations import (
     EYES,
     driven,
     robots,
@@ -38,7 +38,7 @@ def _kinds(inputs):
 def _off(inputs, outputs):
     off = outputs["xs"].copy()
     for kind in _kinds(inputs):
-        off[kind] -= driven(*(inputs[name][kind].mean(axis=0) for name in ("x", "drives")))
+        off[kind] -= driven(*(inputs[name][kind].mean(axis=0) for name in ("x", "us")))
     off[..., 2] = wrap(off[..., 2])
     return off
 
@@ -198,7 +198,7 @@ LOST = Task(
             "filter do with it?",
         ),
         Diagnosis(
-            "heading-by-few-sights",
+            "heading-by-few-observations",
             "Some robots are localised, and others have an error of metres: probably their heading "
             "is wrong. Either you tried no initial heading near the right one, or a few outliers "
             "decided about it. With a wrong heading, a gate also rejects correct measurements.",

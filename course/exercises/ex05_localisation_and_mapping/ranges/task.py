@@ -5,7 +5,7 @@ import numpy as np
 from classroom.exercises.correctness_laws import Diagnosis, equals
 from classroom.exercises.task import Probe, Task
 from course.exercises.ex05_localisation_and_mapping.calls import CALLS
-from course.exercises.ex05_localisation_and_mapping.sights import (
+from course.exercises.ex05_localisation_and_mapping.observations import (
     T,
     beliefs,
     either_sign,
@@ -21,7 +21,7 @@ from course.exercises.surveyed import (
 )
 
 
-def heard(rng, rows=6, count=2, far=(2.0, 6.0)):
+def ranges_to_beacons(rng, rows=6, count=2, far=(2.0, 6.0)):
     """Uncertain poses with an antenna off the axle, and ranges of ``count`` beacons."""
     x, P = beliefs(rng, rows)
     inputs = {"x": x, "P": P, "rs": np.zeros((rows, count)), "beacons": np.zeros((rows, count, 2))}
@@ -37,18 +37,18 @@ def _measured(rng, inputs, beacons, off=(0.05, 0.2)):
 
 
 def _on_the_axle(rng):
-    inputs = heard(rng, 2, 2)
+    inputs = ranges_to_beacons(rng, 2, 2)
     inputs["a"][:] = 0
     return _measured(rng, inputs, inputs["beacons"])
 
 
 def _over_a_beacon(rng):
-    inputs = heard(rng, 2, 1)
+    inputs = ranges_to_beacons(rng, 2, 1)
     return _measured(rng, inputs, inputs["x"][:, None, :2].copy())
 
 
 def _along_the_axes(rng):
-    inputs = heard(rng, 4, 1)
+    inputs = ranges_to_beacons(rng, 4, 1)
     inputs["x"] = np.array([[1.0, 2, 0], [0, 0, 0], [2, 1, 0], [-1, 0, 0]])
     inputs["a"] = np.array([[0.5, 0], [0, 0.5], [-0.5, 0], [0.25, 0.25]])
     ways = np.array([[3.0, 0], [0, 4], [-2, 0], [0, -3]])
@@ -56,21 +56,21 @@ def _along_the_axes(rng):
 
 
 def _heard_twice(rng):
-    inputs = heard(rng, 2, 1)
+    inputs = ranges_to_beacons(rng, 2, 1)
     return _measured(rng, inputs, inputs["beacons"].repeat(2, axis=1))
 
 
 def _contradictory(rng):
-    inputs = heard(rng, 2, 2)
+    inputs = ranges_to_beacons(rng, 2, 2)
     return inputs | {"rs": inputs["rs"] + [4.0, 0.0]}
 
 
 def _surveyed(rng):
-    return heard(rng, 2, 3) | {"sigma": np.array([0.002, 1.0])}
+    return ranges_to_beacons(rng, 2, 3) | {"sigma": np.array([0.002, 1.0])}
 
 
 def _far(rng):
-    inputs = vague(surveyed(heard(rng, 6, 3), "x", "beacons"), ["P"], ["sigma"])
+    inputs = vague(surveyed(ranges_to_beacons(rng, 6, 3), "x", "beacons"), ["P"], ["sigma"])
     return _measured(rng, inputs, inputs["beacons"], (5, 20))  # so that rounding is small beside it
 
 
@@ -138,13 +138,16 @@ RANGES = Task(
     id="05-ranges",
     title="Localisation from ranges only",
     call=CALLS["05-ranges"],
-    inputs=heard,
+    inputs=ranges_to_beacons,
     probes=(
-        Probe("no beacon", lambda rng: heard(rng, 2, 0)),
-        Probe("one beacon", lambda rng: heard(rng, 2, 1)),
-        Probe("twelve beacons", lambda rng: heard(rng, 1, 12)),
+        Probe("no beacon", lambda rng: ranges_to_beacons(rng, 2, 0)),
+        Probe("one beacon", lambda rng: ranges_to_beacons(rng, 2, 1)),
+        Probe("twelve beacons", lambda rng: ranges_to_beacons(rng, 1, 12)),
         Probe("the antenna at the point of the pose", _on_the_axle),
-        Probe("the antenna centimetres from a beacon", lambda rng: heard(rng, 2, 2, (0.03, 0.05))),
+        Probe(
+            "the antenna centimetres from a beacon",
+            lambda rng: ranges_to_beacons(rng, 2, 2, (0.03, 0.05)),
+        ),
         Probe("a beacon at the position of the robot", _over_a_beacon),
         Probe("beacons along the axes", _along_the_axes),
         Probe("one beacon measured twice", _heard_twice),

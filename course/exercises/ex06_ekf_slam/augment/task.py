@@ -13,7 +13,7 @@ from slamlab.models import jacobians
 OLD, NEW = np.s_[:-2], np.s_[-2:]
 
 
-def sights(rng, rows=8, landmarks=2):
+def observations(rng, rows=8, landmarks=2):
     """Beliefs, and the measurement of a new landmark with its R."""
     x, P = beliefs(rng, rows, landmarks)
     z = np.column_stack([rng.uniform(2, 6, rows), either_sign(rng, 0.4, 2.6, rows)])
@@ -22,12 +22,12 @@ def sights(rng, rows=8, landmarks=2):
 
 
 def _exactly_known(rng):
-    inputs = sights(rng, 2, 1)
+    inputs = observations(rng, 2, 1)
     return inputs | {"P": 0 * inputs["P"]}
 
 
 def _straight_ahead(rng):
-    inputs = sights(rng, 2, 1)
+    inputs = observations(rng, 2, 1)
     inputs["x"][:, 2], inputs["z"][:, 1] = [0, np.pi / 2], 0
     return inputs | {"R": inputs["R"] * np.eye(2)}
 
@@ -71,10 +71,10 @@ AUGMENT = Task(
     id="06-augment",
     title="State augmentation: a new landmark",
     call=CALLS["06-augment"],
-    inputs=sights,
+    inputs=observations,
     probes=(
-        Probe("an empty map", lambda rng: sights(rng, 2, 0)),
-        Probe("a map of six landmarks", lambda rng: sights(rng, 1, 6)),
+        Probe("an empty map", lambda rng: observations(rng, 2, 0)),
+        Probe("a map of six landmarks", lambda rng: observations(rng, 1, 6)),
         Probe("an exactly known pose and map", _exactly_known),
         Probe("a landmark straight ahead", _straight_ahead),
     ),

@@ -12,7 +12,7 @@ from slamlab.geometry import wrap
 from slamlab.models import jacobians
 
 
-def sights(rng, rows=8, landmarks=3, behind=False):
+def observations(rng, rows=8, landmarks=3, behind=False):
     """Beliefs and measurements of a known landmark, beside the robot or right behind it."""
     x, P = beliefs(rng, rows, landmarks)
     j, R = np.arange(rows) % landmarks, covariances(rng, rng.uniform(0.03, 0.06, (rows, 2)))
@@ -27,20 +27,20 @@ def sights(rng, rows=8, landmarks=3, behind=False):
 
 
 def _as_expected(rng):
-    inputs = sights(rng, 2, 2)
+    inputs = observations(rng, 2, 2)
     _, inputs["z"] = _linearised(inputs)
     return inputs
 
 
 def _far_off(rng):
-    inputs = sights(rng, 2, 2)
+    inputs = observations(rng, 2, 2)
     inputs["z"][:, 0] += 4  # more than π: ranges are not to be wrapped
     inputs["z"][:, 1] -= 2 * np.sign(inputs["z"][:, 1])  # more than π/2, but not beyond ±π
     return inputs
 
 
 def _uncorrelated(rng):
-    inputs = sights(rng, 2, 2)
+    inputs = observations(rng, 2, 2)
     return inputs | {"P": inputs["P"] * np.eye(7), "R": inputs["R"] * np.eye(2)}
 
 
@@ -89,15 +89,15 @@ UPDATE = Task(
     id="06-update",
     title="Update: a known landmark",
     call=CALLS["06-update"],
-    inputs=sights,
+    inputs=observations,
     probes=(
         Probe(
             "a landmark right behind the robot",
-            lambda rng: sights(rng, 4, 3, behind=True),
+            lambda rng: observations(rng, 4, 3, behind=True),
             ("wrapped", "P"),
         ),
-        Probe("a map of one landmark", lambda rng: sights(rng, 2, 1)),
-        Probe("a map of six landmarks", lambda rng: sights(rng, 6, 6)),
+        Probe("a map of one landmark", lambda rng: observations(rng, 2, 1)),
+        Probe("a map of six landmarks", lambda rng: observations(rng, 6, 6)),
         Probe("a measurement equal to the predicted one", _as_expected),
         Probe("a measurement far from the predicted one", _far_off),
         Probe("uncorrelated errors", _uncorrelated),

@@ -19,7 +19,7 @@ def fuse(a, P_a, b, P_b, P_ab):
     P = L @ P_a @ L.T + K @ P_b @ K.T + L @ P_ab @ K.T + K @ P_ab.T @ L.T
     return L @ a + K @ b, P
 
-# %% way: two sights of one state
+# %% way: two observations of one state
 def fuse(a, P_a, b, P_b, P_ab):
     P = np.block([[P_a, P_ab], [P_ab.T, P_b]])
     H = np.hstack([np.eye(2), -np.eye(2)])

@@ -86,7 +86,7 @@ def two_updates(P, H_1, H_2, R):
     info_both = info_first + H_2.T @ R_inv @ H_2
     return np.linalg.inv(info_first), np.linalg.inv(info_both)
 
-# %% right: both sights in one stacked update
+# %% right: both observations in one stacked update
 def two_updates(P, H_1, H_2, R):
     def without(H, noise):
         PHt = P @ H.T
@@ -129,7 +129,7 @@ def two_updates(P, H_1, H_2, R):
         out.append(P)
     return out[0], out[1]
 
-# %% wrong: both sights in one, with the noise of one spread the wrong way
+# %% wrong: both observations in one, with the noise of one spread the wrong way
 def two_updates(P, H_1, H_2, R):
     def update(P, H, R):
         S = H @ P @ H.T + R

@@ -22,7 +22,7 @@ def _only(P, block):
     return kept
 
 
-def _sights(rng, directions, distances):
+def _observations(rng, directions, distances):
     """(n, 2, 7) Jacobians by the whole state, of p1 and of p2."""
     H = np.zeros((2, len(directions), 2, 7))
     places = distances[..., None] * np.stack([np.cos(directions), np.sin(directions)], axis=-1)
@@ -39,7 +39,7 @@ def _drawn(rng, n=ROWS, strangers=False, noise=1.0, directions=None):
     if directions is None:
         directions = rng.uniform(-np.pi, np.pi, (n, 2))
     sigmas = noise * np.column_stack([rng.uniform(0.05, 0.15, n), rng.uniform(0.02, 0.06, n)])
-    seen = _sights(rng, directions, rng.uniform(0.8, 4, (n, 2)))
+    seen = _observations(rng, directions, rng.uniform(0.8, 4, (n, 2)))
     return {"P": _strangers(P) if strangers else P, **seen, "R": covariances(rng, sigmas)}
 
 

@@ -12,7 +12,7 @@ from slamlab import models
 from slamlab.models import jacobians
 
 
-def sights(rng, rows=8, beyond=2, bearings=(0.4, 2.6), ahead=(0.5, 3)):
+def observations(rng, rows=8, beyond=2, bearings=(0.4, 2.6), ahead=(0.5, 3)):
     """Poses and measurements of walls, of which the last ``beyond`` lie between robot and origin.
     bearings : |α'| [rad]; ahead : component of the robot's position along the normal [m].
     """
@@ -31,7 +31,7 @@ def sights(rng, rows=8, beyond=2, bearings=(0.4, 2.6), ahead=(0.5, 3)):
 
 def _with(rows=2, times=None, beyond=2, **others):
     def inputs(rng):
-        found = sights(rng, rows, beyond)
+        found = observations(rng, rows, beyond)
         return found | {name: found[name] * by for name, by in (times or {}).items()} | others
 
     return inputs
@@ -96,15 +96,15 @@ PLACE = Task(
     id="09-place",
     title="Landmark initialisation: a new wall",
     call=CALLS["09-place"],
-    inputs=sights,
+    inputs=observations,
     probes=(
-        Probe("a wall behind the robot", lambda rng: sights(rng, 4, bearings=(3.1, 3.14))),
+        Probe("a wall behind the robot", lambda rng: observations(rng, 4, bearings=(3.1, 3.14))),
         Probe("a robot at the world's origin", _with(x=np.zeros((2, 3)))),
         Probe("walls parallel to the axes", _with(3, **WHOLE)),
         Probe("an exactly known pose", _with(times={"P": 0.0})),
         Probe("a measurement without noise", _with(times={"R": 0.0})),
         Probe("uncorrelated errors", _with(times={"P": np.eye(3), "R": np.eye(2)})),
-        Probe("a robot 200 m from the origin", lambda rng: sights(rng, 2, ahead=(190, 210))),
+        Probe("a robot 200 m from the origin", lambda rng: observations(rng, 2, ahead=(190, 210))),
         Probe(FAR_OFF, _far),
     ),
     diagnoses=(differences(lambda inputs: {name: want(inputs)[name] for name in "CX"}, FAR_OFF),),

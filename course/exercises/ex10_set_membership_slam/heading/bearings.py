@@ -18,12 +18,12 @@ def inputs(rng):
     wide, narrow = rng.uniform(0.6, 1.0, ROWS), rng.uniform(0.01, 0.05, ROWS)
     right_wide = (k % 4 < 2) | (k % 6 == 3)
     before = np.where(right_wide, wide, narrow)
-    given = sights(rng, toward, theta, before, wide + narrow - before)
+    given = observations(rng, toward, theta, before, wide + narrow - before)
     meet = _strips(rng, toward[:4])
     return {name: np.concatenate([meet.get(name, a[:4]), a[4:]]) for name, a in given.items()}
 
 
-def sights(rng, toward, theta, before, behind, size=(0.15, 0.35), bound=(0.03, 0.1)):
+def observations(rng, toward, theta, before, behind, size=(0.15, 0.35), bound=(0.03, 0.1)):
     """Measurements in directions (n,), headings that reach before and behind the true one."""
     n = len(toward)
     at = rng.uniform(-3, 3, (n, 2))
@@ -53,7 +53,7 @@ def _strips(rng, toward):
 
 def _any(rng, n, before, behind, **more):
     toward, theta = rng.uniform(-np.pi, np.pi, (2, n))
-    return sights(rng, toward, theta, np.full(n, before), np.full(n, behind), **more)
+    return observations(rng, toward, theta, np.full(n, before), np.full(n, behind), **more)
 
 
 def exact(rng):
@@ -69,13 +69,15 @@ def across_pi(rng):
     toward = np.where(k % 4 < 2, np.pi, -1) + rng.uniform(-0.1, 0.1, 16)
     theta = np.where(k % 2, np.pi, 0.5) + rng.uniform(-0.1, 0.1, 16)
     before = np.where(k < 8, 0.7, 0.03)
-    return sights(rng, toward, theta, before, 0.73 - before)
+    return observations(rng, toward, theta, before, 0.73 - before)
 
 
 def side_by_side(rng):
     """Boxes that do not overlap along one axis only."""
     k = np.arange(16)
-    given = sights(rng, k % 4 * np.pi / 2, rng.uniform(-3, 3, 16), *rng.uniform(0.1, 0.9, (2, 16)))
+    given = observations(
+        rng, k % 4 * np.pi / 2, rng.uniform(-3, 3, 16), *rng.uniform(0.1, 0.9, (2, 16))
+    )
     return given | {"robot": given["robot"] + 0.5 * np.array([-1, 1, -1, 1]) * _across(k % 4)}
 
 
@@ -88,7 +90,7 @@ def far_round(rng):
     """Headings of more than half a turn, the true one right, in the middle and left."""
     before = np.array([0.1, 1.8, 3.6] * 6)
     toward, theta = rng.uniform(-np.pi, np.pi, (2, 18))
-    return sights(rng, toward, theta, before, 3.7 - before)
+    return observations(rng, toward, theta, before, 3.7 - before)
 
 
 def narrowed(rng):

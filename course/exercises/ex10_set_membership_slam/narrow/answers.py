@@ -4,8 +4,8 @@ def narrow(robot, heading, objects, z, bounds):
         ends, found = np.linspace(*heading, 25), []
         for piece in zip(ends[:-1], ends[1:]):
             lines = [(-1, 0, -robot[0]), (1, 0, robot[1]), (0, -1, -robot[2]), (0, 1, robot[3])]
-            for place, sight in zip(objects, z):
-                lines += list(edges(sight, bounds, np.add(piece, np.pi), np.repeat(place, 2)))
+            for place, z_object in zip(objects, z):
+                lines += list(edges(z_object, bounds, np.add(piece, np.pi), np.repeat(place, 2)))
             lines = np.array(lines)
             k, m = np.triu_indices(len(lines), 1)
             (a, b, c), (d, e, f) = lines[k].T, lines[m].T
@@ -57,8 +57,8 @@ def narrow(robot, heading, objects, z, bounds):
             (robot[1], robot[3]),
             (robot[0], robot[3]),
         ]
-        for place, sight in zip(objects, z):
-            for edge in edges(sight, bounds, np.add(piece, np.pi), place[[0, 0, 1, 1]]):
+        for place, z_object in zip(objects, z):
+            for edge in edges(z_object, bounds, np.add(piece, np.pi), place[[0, 0, 1, 1]]):
                 polygon = clip_polygon(polygon, edge)
             if not polygon:
                 break
@@ -82,9 +82,9 @@ def narrow(robot, heading, objects, z, bounds):
 
 # %% pasted: each sighting until nothing shrinks
 def narrow(robot, heading, objects, z, bounds):
-    for place, sight in zip(objects, z):
+    for place, z_object in zip(objects, z):
         for _ in range(10):
-            robot, heading = look(robot, heading, place[None], sight[None], bounds)
+            robot, heading = look(robot, heading, place[None], z_object[None], bounds)
     return robot, heading
 
 
@@ -146,9 +146,9 @@ def narrow(robot, heading, objects, z, bounds):
         points = [(x0, y0), (x1, y0), (x1, y1), (x0, y1)]
         if bounds[1] + (high - low) / 2 >= 1.5:
             return points
-        for place, sight in zip(objects, z):
+        for place, z_object in zip(objects, z):
             box = np.array([place[0], place[0], place[1], place[1]])
-            for a, b, c in edges(sight, bounds, np.array([low, high]) + np.pi, box):
+            for a, b, c in edges(z_object, bounds, np.array([low, high]) + np.pi, box):
                 room = [c + 1e-12 - a * p - b * q for p, q in points]
                 new = []
                 for i in range(len(points)):

@@ -39,8 +39,8 @@ def one_round(given):
     }
 
 
-def _one_round(robot, heading, objects, sights, bounds):
-    for (x, y), z in zip(objects, sights, strict=True):
+def _one_round(robot, heading, objects, observations, bounds):
+    for (x, y), z in zip(objects, observations, strict=True):
         box, (direction, d_abs) = (x, x, y, y), absolute_bearing(heading, z, bounds)
         if d_abs < np.pi / 2:
             robot = clip_all(robot, reversed_edges(z, bounds, direction, d_abs, box))

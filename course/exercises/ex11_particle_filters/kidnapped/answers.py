@@ -1,4 +1,4 @@
-# %% way: by logarithms and tickets, half as many strangers
+# %% way: by logarithms and tickets, half as many random_particles
 def find_again(rows, weights, u, C, p, z, R, rng):
 
     def ring(count):
@@ -10,16 +10,16 @@ def find_again(rows, weights, u, C, p, z, R, rng):
 
     n, k = len(rows), len(rows) // 2
     moved = move(rows, u, C, rng)
-    strangers, r = ring(k)
-    top = np.log(1 - GHOSTS) - np.log(2 * np.pi) - np.linalg.slogdet(R)[1] / 2
-    floor = np.log(GHOSTS / (2 * np.pi * REACH))
+    random_particles, r = ring(k)
+    top = np.log(1 - OUTLIERS) - np.log(2 * np.pi) - np.linalg.slogdet(R)[1] / 2
+    floor = np.log(OUTLIERS / (2 * np.pi * REACH))
     known = np.log(weights) + np.logaddexp(top + log_likelihoods(moved, p, z, R), floor)
     new = np.log(0.01 * np.abs(r) / (80 * k) + 1e-300)
-    new[(np.abs(strangers[:, :2]) > ROOM / 2).any(axis=1)] = -1e3
+    new[(np.abs(random_particles[:, :2]) > ROOM / 2).any(axis=1)] = -1e3
     w = normalise(np.append(known, new))
-    return np.concatenate([moved, strangers])[rng.choice(n + k, n, p=w)], np.full(n, 1 / n)
+    return np.concatenate([moved, random_particles])[rng.choice(n + k, n, p=w)], np.full(n, 1 / n)
 
-# %% way: strangers of one weight, evenly on the ring
+# %% way: random_particles of one weight, evenly on the ring
 def find_again(rows, weights, u, C, p, z, R, rng):
 
     n = len(rows)
@@ -36,7 +36,7 @@ def find_again(rows, weights, u, C, p, z, R, rng):
     picked = np.searchsorted(np.cumsum(w)[:-1], (rng.random() + np.arange(n)) / n)
     return np.vstack([moved, new])[picked], np.ones(n) / n
 
-# %% way: twice as many strangers
+# %% way: twice as many random_particles
 def find_again(rows, weights, u, C, p, z, R, rng):
 
     def ring(count):
@@ -47,14 +47,14 @@ def find_again(rows, weights, u, C, p, z, R, rng):
         return np.column_stack([x, y, wrap(angle + np.pi - beta)]), r
 
     n, moved = len(rows), move(rows, u, C, rng)
-    strangers, r = ring(2 * n)
+    random_particles, r = ring(2 * n)
     real = np.exp(log_likelihoods(moved, p, z, R)) / (2 * np.pi * np.sqrt(np.linalg.det(R)))
     known = 0.99 * weights * (0.9 * real + 0.1 / (2 * np.pi * 10))
     new = 0.9 * 0.01 * np.abs(r) / 80 / (2 * n)
-    new[(np.abs(strangers[:, 0]) > 5) | (np.abs(strangers[:, 1]) > 4)] = 0
+    new[(np.abs(random_particles[:, 0]) > 5) | (np.abs(random_particles[:, 1]) > 4)] = 0
     w = np.append(known, new)
     picked = draw(w / w.sum(), rng)[rng.integers(3) :: 3]
-    return list(np.vstack([moved, strangers])[picked]), [1 / n] * n
+    return list(np.vstack([moved, random_particles])[picked]), [1 / n] * n
 
 # %% way: p l / q of each stranger by its densities
 def find_again(rows, weights, u, C, p, z, R, rng):
@@ -68,18 +68,18 @@ def find_again(rows, weights, u, C, p, z, R, rng):
 
     n = len(rows)
     moved = move(rows, u, C, rng)
-    strangers, r = ring(n)
+    random_particles, r = ring(n)
     peak = 1 / (2 * np.pi * np.sqrt(np.linalg.det(R)))
 
     def likelihood(x):
-        return (1 - GHOSTS) * peak * np.exp(log_likelihoods(x, p, z, R)) + GHOSTS / (2 * np.pi * REACH)
+        return (1 - OUTLIERS) * peak * np.exp(log_likelihoods(x, p, z, R)) + OUTLIERS / (2 * np.pi * REACH)
 
-    prior = np.where((np.abs(strangers[:, :2]) < ROOM / 2).all(axis=1), 1 / (80 * 2 * np.pi), 0)
+    prior = np.where((np.abs(random_particles[:, :2]) < ROOM / 2).all(axis=1), 1 / (80 * 2 * np.pi), 0)
     # drawn round z, as densities of range, bearing and angle: in x, y and θ they are 1/r of that
-    q = peak * np.exp(log_likelihoods(strangers, p, z, R)) / (2 * np.pi * np.maximum(np.abs(r), 1e-6))
+    q = peak * np.exp(log_likelihoods(random_particles, p, z, R)) / (2 * np.pi * np.maximum(np.abs(r), 1e-6))
     q = np.maximum(q, 1e-2 * q.max())
-    w = np.append(0.99 * weights * likelihood(moved), 0.01 * prior * likelihood(strangers) / q / n)
-    together = np.vstack([moved, strangers])
+    w = np.append(0.99 * weights * likelihood(moved), 0.01 * prior * likelihood(random_particles) / q / n)
+    together = np.vstack([moved, random_particles])
     w = w / np.sum(w)
     best = rng.permutation(draw(w, rng))[:n]
     return together[best], np.full(n, 1 / n)
@@ -88,7 +88,7 @@ def find_again(rows, weights, u, C, p, z, R, rng):
 def find_again(rows, weights, u, C, p, z, R, rng):
     return localise(rows, weights, u, C, p, z, R, rng)
 
-# %% pasted: the lesson's strangers
+# %% pasted: the lesson's random_particles
 def find_again(rows, weights, u, C, p, z, R, rng):
 
     n, k = len(rows), int(0.1 * len(rows))
@@ -97,7 +97,7 @@ def find_again(rows, weights, u, C, p, z, R, rng):
     rows[rng.permutation(n)[:k]] = rng.uniform([-5, -4, -np.pi], [5, 4, np.pi], (k, 3))
     return rows, np.full(n, 1 / n)
 
-# %% pasted: the lesson's step with more strangers
+# %% pasted: the lesson's step with more random_particles
 def find_again(rows, weights, u, C, p, z, R, rng):
 
     n, k = len(rows), int(0.25 * len(rows))
@@ -106,7 +106,7 @@ def find_again(rows, weights, u, C, p, z, R, rng):
     rows[rng.permutation(n)[:k]] = rng.uniform([-5, -4, -np.pi], [5, 4, np.pi], (k, 3))
     return rows, np.full(n, 1 / n)
 
-# %% right: strangers on the ring as a second population, density of the ring divided out
+# %% right: random_particles on the ring as a second population, density of the ring divided out
 def find_again(rows, weights, u, C, p, z, R, rng):
     n = len(rows)
     rate = 0.01
@@ -133,7 +133,7 @@ def find_again(rows, weights, u, C, p, z, R, rng):
     rows_picked = np.minimum(np.searchsorted(np.cumsum(w), teeth, side="right"), len(w) - 1)
     return every[rows_picked], np.full(n, 1 / n)
 
-# %% right: ring strangers, multinomial draw, a little roughening
+# %% right: ring random_particles, multinomial draw, a little roughening
 def find_again(rows, weights, u, C, p, z, R, rng):
     n = len(rows)
     moved = move(rows, u, C, rng)
@@ -158,9 +158,9 @@ def find_again(rows, weights, u, C, p, z, R, rng):
 def find_again(rows, weights, u, C, p, z, R, rng):
     rows, weights = localise(rows, weights, u, C, p, z, R, rng)
     k = 60
-    strangers = rng.uniform([-5, -4, -np.pi], [5, 4, np.pi], (k, 3))
+    random_particles = rng.uniform([-5, -4, -np.pi], [5, 4, np.pi], (k, 3))
     n = len(rows) + k
-    return np.vstack([rows, strangers]), np.concatenate([weights * len(rows) / n, np.full(k, 1 / n)])
+    return np.vstack([rows, random_particles]), np.concatenate([weights * len(rows) / n, np.full(k, 1 / n)])
 
 # %% wrong: ring with a wrong heading (half a turn forgotten)
 def find_again(rows, weights, u, C, p, z, R, rng):
@@ -168,15 +168,15 @@ def find_again(rows, weights, u, C, p, z, R, rng):
     rows = move(rows, u, C, rng)
     r, beta = rng.multivariate_normal(z[0], R, n).T
     angle = rng.uniform(-np.pi, np.pi, n)
-    strangers = np.column_stack(
+    random_particles = np.column_stack(
         [p[0, 0] + r * np.cos(angle), p[0, 1] + r * np.sin(angle), wrap(angle - beta)])
-    inside = np.all(np.abs(strangers[:, :2]) < ROOM / 2, axis=1)
+    inside = np.all(np.abs(random_particles[:, :2]) < ROOM / 2, axis=1)
     real = np.exp(log_likelihoods(rows, p, z, R)) / (2 * np.pi * np.sqrt(np.linalg.det(R)))
     seen = 0.9 * real + 0.1 / (REACH * 2 * np.pi)
     odd = 0.9 * inside * np.abs(r) / np.prod(ROOM) / n
     every = np.concatenate([(1 - carried) * weights * seen, carried * odd])
     picked = draw(every / every.sum(), rng)[::2]
-    return np.vstack([rows, strangers])[picked], np.full(n, 1 / n)
+    return np.vstack([rows, random_particles])[picked], np.full(n, 1 / n)
 
 # %% wrong: the middle of the room, constant
 def find_again(rows, weights, u, C, p, z, R, rng):

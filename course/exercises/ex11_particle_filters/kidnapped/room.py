@@ -13,7 +13,7 @@ from slamlab.models.observation import h
 
 ROOM = np.array([10.0, 8.0])  # its middle is the origin [m]
 POSTS = np.array([[4.5, 3.5], [-4.5, 3.5], [-4.5, -3.5], [4.5, -3.5], [1.0, 3.0], [-2.0, -3.2]])
-GHOSTS, REACH = 0.1, 10.0  # share of false measurements; their ranges are from 0 to this [m]
+OUTLIERS, REACH = 0.1, 10.0  # share of false measurements; their ranges are from 0 to this [m]
 RUNS, STEPS, SAMPLES = 16, 30, 300
 CARRIED = 8, 12  # first and last step before which the robot is kidnapped
 SEARCH = 10  # steps in which it must be relocalised
@@ -51,7 +51,7 @@ def _run(rng):
         x = f_odometry(x, rng.multivariate_normal(u, WHEELS))
         last = rng.choice([j for j in range(len(POSTS)) if j != last])
         z = h(x, POSTS[last]) + rng.multivariate_normal([0, 0], EYES)
-        if rng.random() < GHOSTS:
+        if rng.random() < OUTLIERS:
             z = rng.uniform([0, -np.pi], [REACH, np.pi])
         us.append(u)
         ps.append(POSTS[[last]])

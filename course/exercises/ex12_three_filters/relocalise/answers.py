@@ -1,7 +1,7 @@
 # %% way: many samples of the guesses, weighed
-def relocalise(start, motions, sights, posts):
+def relocalise(start, motions, measurements, posts):
     poses, weights, found = start[None], np.ones(1), []
-    for motion, z in zip(motions, sights):
+    for motion, z in zip(motions, measurements):
         poses = corrected(compose(poses, motion), z, posts)
         fits = fit(poses, z, posts)
         if len(z) > 1 and fits[np.argmax(weights)] < -5:
@@ -23,10 +23,10 @@ def relocalise(start, motions, sights, posts):
     return np.array(found)
 
 # %% way: when in doubt, the last scans are asked again
-def relocalise(start, motions, sights, posts):
+def relocalise(start, motions, measurements, posts):
     found, pose, past = [], start, []
     rivals = np.zeros((0, 3))
-    for motion, z in zip(motions, sights):
+    for motion, z in zip(motions, measurements):
         pose = corrected(compose(pose, motion)[None], z, posts)[0]
         rivals = corrected(compose(rivals, motion), z, posts) if len(rivals) else rivals
         past.append(fit(np.concatenate([pose[None], rivals]), z, posts))
@@ -56,26 +56,26 @@ def relocalise(start, motions, sights, posts):
 relocalise = track
 
 # %% pasted: the wheels alone
-def relocalise(start, motions, sights, posts):
+def relocalise(start, motions, measurements, posts):
     poses = [start]
     for motion in motions:
         poses.append(compose(poses[-1], motion))
     return np.array(poses[1:])
 
 # %% pasted: the ready filter, twice a scan
-def relocalise(start, motions, sights, posts):
+def relocalise(start, motions, measurements, posts):
     pose, found = start[None], []
-    for motion, z in zip(motions, sights):
+    for motion, z in zip(motions, measurements):
         pose = corrected(compose(pose, motion), z, posts)
         pose = corrected(pose, z, posts)
         found.append(pose[0])
     return np.array(found)
 
 # %% right: hypotheses in a list, guesses made at every scan, log scores
-def relocalise(start, motions, sights, posts):
+def relocalise(start, motions, measurements, posts):
     tracks = [(0.0, np.array(start, dtype=float))]
     result = []
-    for told, seen in zip(motions, sights):
+    for motion, seen in zip(motions, measurements):
         best = max(s for s, _ in tracks)
         poses = corrected(compose(np.array([x for _, x in tracks]), told), seen, posts)
         scores = np.array([s for s, _ in tracks]) + fit(poses, seen, posts)
@@ -99,10 +99,10 @@ def relocalise(start, motions, sights, posts):
     return np.array(result)
 
 # %% right: looks back: forward with hypotheses, then follows the winner's ancestors
-def relocalise(start, motions, sights, posts):
+def relocalise(start, motions, measurements, posts):
     poses, scores = np.array([start], dtype=float), np.zeros(1)
     layers_, parents = [], []
-    for told, seen in zip(motions, sights):
+    for motion, seen in zip(motions, measurements):
         moved = corrected(compose(poses, told), seen, posts)
         value = scores + fit(moved, seen, posts)
         parent = np.arange(len(moved))
@@ -132,10 +132,10 @@ def relocalise(start, motions, sights, posts):
     return np.array(track_back[::-1])
 
 # %% wrong: in every scan the best of all guesses, without motion or memory: the bay is thrown anew each time
-def relocalise(start, motions, sights, posts):
+def relocalise(start, motions, measurements, posts):
     pose, found = np.array(start), []
-    for told, seen in zip(motions, sights):
-        pose = compose(pose, told)
+    for motion, seen in zip(motions, measurements):
+        pose = compose(pose, motion)
         others = guesses(seen, posts) if len(seen) > 1 else np.zeros((0, 3))
         if len(others):
             pose = others[np.argmax(fit(others, seen, posts))]
@@ -143,28 +143,28 @@ def relocalise(start, motions, sights, posts):
     return np.array(found)
 
 # %% wrong: a random cloud round the last pose, best fit wins
-def relocalise(start, motions, sights, posts):
+def relocalise(start, motions, measurements, posts):
     rng = np.random.default_rng(0)
     pose, found = start, []
-    for told, seen in zip(motions, sights):
-        cloud = compose(pose, told) + rng.normal(0, [0.3, 0.3, 0.2], (300, 3))
+    for motion, seen in zip(motions, measurements):
+        cloud = compose(pose, motion) + rng.normal(0, [0.3, 0.3, 0.2], (300, 3))
         if len(seen):
             cloud = corrected(cloud, seen, posts)
             pose = cloud[np.argmax(fit(cloud, seen, posts))]
         else:
-            pose = compose(pose, told)
+            pose = compose(pose, motion)
         found.append(pose)
     return np.array(found)
 
 # %% wrong: middle of the hall, constant
-def relocalise(start, motions, sights, posts):
+def relocalise(start, motions, measurements, posts):
     return np.tile([6.0, 2.0, 0.0], (len(motions), 1))
 
 # %% wrong: searches along the hall only by whole bays, same heading
-def relocalise(start, motions, sights, posts):
+def relocalise(start, motions, measurements, posts):
     pose, found = start[None], []
-    for told, seen in zip(motions, sights):
-        pose = compose(pose, told)
+    for motion, seen in zip(motions, measurements):
+        pose = compose(pose, motion)
         three = np.vstack([pose + [dx, 0, 0] for dx in (0, 4, -4)])
         three = corrected(three, seen, posts)
         pose = three[[np.argmax(fit(three, seen, posts))]]

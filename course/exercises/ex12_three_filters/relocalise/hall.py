@@ -20,7 +20,7 @@ TRIED = 16  # pairs of paths; the pair with the least informative kidnapping is 
 def drives(rng, lifted=6, calm=0):
     """Four runs in each hall.
     lifted, calm : halls with and without a kidnapping. start (d, 3), motions (d, STEPS, 3),
-    sights (d, STEPS, MOST, 2), counts (d, STEPS), posts (d, n, 2).
+    measurements (d, STEPS, MOST, 2), counts (d, STEPS), posts (d, n, 2).
     """
     first = [LIFTED + SPAN * k for k in range(lifted)] + [None] * calm
     halls = [_hall(rng, each) for each in first]
@@ -44,7 +44,7 @@ def _hall(rng, first):
     return {
         "start": np.repeat(ways[:, 0], 2, axis=0),
         "motions": told,
-        "sights": np.array([[scan for scan, _ in drive] for drive in scans]),
+        "measurements": np.array([[scan for scan, _ in drive] for drive in scans]),
         "counts": np.array([[count for _, count in drive] for drive in scans]),
         "posts": np.tile(posts, (4, 1, 1)),
     }

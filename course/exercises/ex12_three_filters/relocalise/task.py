@@ -32,7 +32,7 @@ def strayed(i, o):
 def certain(i):
     """(d, STEPS) bool: the readings that count after the kidnapping."""
     poses, after = hall.truth(i)
-    posts, (r, beta) = i["posts"], np.moveaxis(i["sights"], -1, 0)
+    posts, (r, beta) = i["posts"], np.moveaxis(i["measurements"], -1, 0)
     inside = np.stack([np.mod(posts[..., 0], hall.BAY), posts[..., 1]], axis=-1)
     twins = np.abs(inside[:, :, None] - inside[:, None]).max(axis=3) < 1e-9
     own = twins.sum(axis=2) == 1
@@ -124,7 +124,10 @@ def _why(i, o):
 def _by_odometry(i):
     pose, near = i["start"][0], []
     for motion, (r, beta), count in zip(
-        i["motions"][0][:5], np.moveaxis(i["sights"][0][:5], -1, 1), i["counts"][0], strict=False
+        i["motions"][0][:5],
+        np.moveaxis(i["measurements"][0][:5], -1, 1),
+        i["counts"][0],
+        strict=False,
     ):
         pose = compose(pose, motion)
         at = pose[:2] + np.stack([r * np.cos(beta + pose[2]), r * np.sin(beta + pose[2])], axis=-1)

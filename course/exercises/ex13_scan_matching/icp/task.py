@@ -13,11 +13,11 @@ SIZES = np.array([1, 1e-3])  # along the small wall all steps are small, but the
 SOME = 3  # iterations in which a wrong step does not diverge yet and rounding errors stay small
 
 
-def sliding(rng, rounds, n=60):
+def sliding(rng, iterations, n=60):
     """Walls with many points, along which the source converges slowly, of the sizes SIZES."""
-    inputs, end = looks(rng, rounds), np.column_stack([np.full(6, 2.0), rng.uniform(0, 1, 6)])
+    inputs, end = looks(rng, iterations), np.column_stack([np.full(6, 2.0), rng.uniform(0, 1, 6)])
     for name in ("source", "target"):
-        walls = [rng.uniform((-2, -0.02), (2, 0.02), (n, 2)) for _ in rounds]
+        walls = [rng.uniform((-2, -0.02), (2, 0.02), (n, 2)) for _ in iterations]
         walls = np.array([rng.permutation(np.vstack([wall, end])) for wall in walls])
         inputs[name] = SIZES[:, None, None] * walls
     inputs["target"] = carried(inputs["T"], inputs["target"])
@@ -26,26 +26,28 @@ def sliding(rng, rounds, n=60):
 
 def judged_at(law, asked):
     """A law that judges only matches with some numbers of iterations."""
-    return replace(law, holds=lambda i, o: law.holds(i, o) | ~asked(i["rounds"]))
+    return replace(law, holds=lambda i, o: law.holds(i, o) | ~asked(i["iterations"]))
 
 
 def by_rounds(inputs, outputs, want=matched):
     """Results of one iteration; of some, and whether those of many, which diverge, are right."""
-    rounds, found, right = inputs["rounds"], outputs["result"], want(inputs)["result"]
+    iterations, found, right = inputs["iterations"], outputs["result"], want(inputs)["result"]
     off = np.abs(found - right).max(axis=(1, 2))
     return {
-        "one round": found[rounds <= 1],
-        "more": np.append(found[(rounds > 1) & (rounds <= SOME)], off[rounds > SOME] < TOLERANCE),
+        "one round": found[iterations <= 1],
+        "more": np.append(
+            found[(iterations > 1) & (iterations <= SOME)], off[iterations > SOME] < TOLERANCE
+        ),
     }
 
 
 def _first(inputs):
-    once = inputs | {"rounds": np.minimum(inputs["rounds"], 1)}
+    once = inputs | {"iterations": np.minimum(inputs["iterations"], 1)}
     return {"T after the first iteration": matched(once)["result"]}
 
 
 def _first_motion(inputs):
-    once = inputs | {"rounds": np.ones(len(inputs["rounds"]))}
+    once = inputs | {"iterations": np.ones(len(inputs["iterations"]))}
     found = matched(once)["result"] @ np.linalg.inv(inputs["T"])
     return {"what best_motion returns in the first iteration": found}
 
@@ -61,11 +63,11 @@ ONE = judged_at(
         "result? Which of the two motions acts first on a point?",
         step=_first_motion,
     ),
-    lambda rounds: rounds <= 1,
+    lambda iterations: iterations <= 1,
 )
 MORE = judged_at(
     equals(
-        "rounds",
+        "iterations",
         2,
         "each further iteration finds the nearest points again, with the source transformed by the "
         "new T",
@@ -74,7 +76,7 @@ MORE = judged_at(
         after=("round",),
         step=_first,
     ),
-    lambda rounds: rounds > 1,
+    lambda iterations: iterations > 1,
 )
 
 ICP = Task(

@@ -1,6 +1,6 @@
 # %% way: by an SVD
-def robust_icp(source, target, T, rounds, c):
-    for _ in range(rounds):
+def robust_icp(source, target, T, iterations, c):
+    for _ in range(iterations):
         moved = carry(T, source)
         distances, rows = nearest(moved, target)
         w = (c**2 / (c**2 + distances**2)) ** 2
@@ -15,9 +15,9 @@ def robust_icp(source, target, T, rounds, c):
     return T
 
 # %% way: with complex numbers, from the source as given
-def robust_icp(source, target, T, rounds, c):
+def robust_icp(source, target, T, iterations, c):
     a = source @ [1, 1j]
-    for _ in range(rounds):
+    for _ in range(iterations):
         distances, rows = nearest(carry(T, source), target)
         b, w = target[rows] @ [1, 1j], 1 / (c**2 + distances**2) ** 2
         mean_a, mean_b = np.average(a, weights=w), np.average(b, weights=w)
@@ -28,8 +28,8 @@ def robust_icp(source, target, T, rounds, c):
     return T
 
 # %% way: by best_motion and mirrored copies
-def robust_icp(source, target, T, rounds, c):
-    for _ in range(rounds):
+def robust_icp(source, target, T, iterations, c):
+    for _ in range(iterations):
         moved = carry(T, source)
         distances, rows = nearest(moved, target)
         w = (1 + (distances / c) ** 2) ** -2.0
@@ -41,8 +41,8 @@ def robust_icp(source, target, T, rounds, c):
     return T
 
 # %% pasted: the lesson's trimmed ICP
-def robust_icp(source, target, T, rounds, c):
-    for _ in range(rounds):
+def robust_icp(source, target, T, iterations, c):
+    for _ in range(iterations):
         moved = carry(T, source)
         distances, rows = nearest(moved, target)
         kept = np.argsort(distances)[: max(int(0.8 * len(source)), 2)]
@@ -50,9 +50,9 @@ def robust_icp(source, target, T, rounds, c):
     return T
 
 # %% right: sums pair by pair, derivative of the kernel by the quotient rule
-def robust_icp(source, target, T, rounds, c):
+def robust_icp(source, target, T, iterations, c):
     T = np.array(T, dtype=float)
-    for _ in range(rounds):
+    for _ in range(iterations):
         moved = carry(T, source)
         e, j = nearest(moved, target)
         W, A, B = 0.0, np.zeros(2), np.zeros(2)
@@ -73,8 +73,8 @@ def robust_icp(source, target, T, rounds, c):
     return T
 
 # %% right: least squares for scaled rotation, then normalised
-def robust_icp(source, target, T, rounds, c):
-    for _ in range(rounds):
+def robust_icp(source, target, T, iterations, c):
+    for _ in range(iterations):
         m = carry(T, source)
         d, rows = nearest(m, target)
         s = 1 / (1 + d * d / c**2)  # the square root of the weight
@@ -91,8 +91,8 @@ def robust_icp(source, target, T, rounds, c):
     return T
 
 # %% wrong: Cauchy's weight as in the lesson
-def robust_icp(source, target, T, rounds, c):
-    for _ in range(rounds):
+def robust_icp(source, target, T, iterations, c):
+    for _ in range(iterations):
         moved = carry(T, source)
         d, rows = nearest(moved, target)
         w = 1 / (1 + d**2 / c**2)
@@ -106,8 +106,8 @@ def robust_icp(source, target, T, rounds, c):
     return T
 
 # %% wrong: slope divided by 2e numerically: NaN at length zero
-def robust_icp(source, target, T, rounds, c):
-    for _ in range(rounds):
+def robust_icp(source, target, T, iterations, c):
+    for _ in range(iterations):
         moved = carry(T, source)
         e, rows = nearest(moved, target)
         slope = 2 * c**4 * e / (c**2 + e**2) ** 2

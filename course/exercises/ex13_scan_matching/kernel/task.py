@@ -16,10 +16,10 @@ from course.exercises.ex13_scan_matching.motions import (
 )
 
 
-def crowded(rng, rounds, sizes=(36, 48), people=14, off=2.0, c=(0.1, 0.4)):
+def crowded(rng, iterations, sizes=(36, 48), people=14, off=2.0, c=(0.1, 0.4)):
     """Scans with people, and c (k,) [m]."""
-    inputs = looks(rng, rounds, sizes, people, off)
-    return inputs | {"c": rng.uniform(*c, len(rounds))}
+    inputs = looks(rng, iterations, sizes, people, off)
+    return inputs | {"c": rng.uniform(*c, len(iterations))}
 
 
 def _sliding(rng):
@@ -45,7 +45,7 @@ def want(inputs):
 
 
 def _first(inputs):
-    once = inputs | {"rounds": np.minimum(inputs["rounds"], 1)}
+    once = inputs | {"iterations": np.minimum(inputs["iterations"], 1)}
     return {"T after the first iteration": want(once)["result"]}
 
 
@@ -93,8 +93,8 @@ KERNEL = Task(
     inputs=lambda rng: crowded(rng, [1, 1, 2, 3, 5]),
     shapes={"result": (3, 3)},
     laws=(
-        judged_at(ONE, lambda rounds: rounds <= 1),
-        judged_at(MORE, lambda rounds: rounds > 1),
+        judged_at(ONE, lambda iterations: iterations <= 1),
+        judged_at(MORE, lambda iterations: iterations > 1),
     ),
     probes=(
         Probe("many iterations", lambda rng: crowded(rng, [14])),
@@ -111,7 +111,7 @@ KERNEL = Task(
     parts=lambda inputs, outputs: by_rounds(inputs, outputs, want),
     may_round=False,
     needs=("13-best-motion",),
-    references=(Reference("robust_icp", "source target T rounds c", want),),
+    references=(Reference("robust_icp", "source target T iterations c", want),),
     begins=(
         "Differentiate ρ. Which weights have correspondences of 0, c and 10c, as fractions of the "
         "first one?",

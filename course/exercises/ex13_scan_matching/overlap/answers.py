@@ -20,8 +20,8 @@ def match(source, target, T):
         T[:2, :2], T[:2, 2] = turned(angle), shift
         return T
 
-    def best(starts, rounds=(0.5, 0.4, 0.3, 0.25, 0.2)):
-        ends = [across(start, rounds) for start in starts]
+    def best(starts, iterations=(0.5, 0.4, 0.3, 0.25, 0.2)):
+        ends = [across(start, iterations) for start in starts]
         return across(max(ends, key=near), (0.15, 0.12, 0.1, 0.1, 0.1, 0.1))
 
     voted = []
@@ -55,8 +55,8 @@ def match(source, target, T):
         T[:2, :2], T[:2, 2] = turned(angle), shift
         return T
 
-    def best(starts, rounds=(0.5, 0.4, 0.3, 0.25, 0.2)):
-        ends = [across(start, rounds) for start in starts]
+    def best(starts, iterations=(0.5, 0.4, 0.3, 0.25, 0.2)):
+        ends = [across(start, iterations) for start in starts]
         return across(max(ends, key=near), (0.15, 0.12, 0.1, 0.1, 0.1, 0.1))
 
     def directions(points):
@@ -96,8 +96,8 @@ def match(source, target, T):
         T[:2, :2], T[:2, 2] = turned(angle), shift
         return T
 
-    def best(starts, rounds=(0.5, 0.4, 0.3, 0.25, 0.2)):
-        ends = [across(start, rounds) for start in starts]
+    def best(starts, iterations=(0.5, 0.4, 0.3, 0.25, 0.2)):
+        ends = [across(start, iterations) for start in starts]
         return across(max(ends, key=near), (0.15, 0.12, 0.1, 0.1, 0.1, 0.1))
 
     size, cell = 96, 0.2
@@ -139,8 +139,8 @@ def match(source, target, T):
         T[:2, :2], T[:2, 2] = turned(angle), shift
         return T
 
-    def best(starts, rounds=(0.5, 0.4, 0.3, 0.25, 0.2)):
-        ends = [across(start, rounds) for start in starts]
+    def best(starts, iterations=(0.5, 0.4, 0.3, 0.25, 0.2)):
+        ends = [across(start, iterations) for start in starts]
         return across(max(ends, key=near), (0.15, 0.12, 0.1, 0.1, 0.1, 0.1))
 
     starts = []

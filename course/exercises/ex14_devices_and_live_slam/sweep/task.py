@@ -175,7 +175,7 @@ SWEEP = Task(
     shapes=lambda i: {
         "taken": (len(i["data"]),),
         "count": (len(i["data"]),),
-        "heard": (len(i["data"]),),
+        "received": (len(i["data"]),),
         "rays": (len(i["data"]), i["data"].shape[1] // 3, 2),
     },
     laws=(

@@ -1,11 +1,11 @@
-"""Task 09-ghosts: a map of a room without false walls, by any method."""
+"""Task 09-clean-map: a map of a room without false walls, by any method."""
 
 import numpy as np
 
 from classroom.exercises.correctness_laws import Diagnosis, Law, once
 from classroom.exercises.task import Probe, Task
 from course.exercises.ex09_slam_with_walls.calls import CALLS
-from course.exercises.ex09_slam_with_walls.ghosts import rooms
+from course.exercises.ex09_slam_with_walls.clean_map import rooms
 from slamlab.geometry import wrap
 
 NEAR = np.array([0.5, 0.2])  # largest error of a correct wall [m, rad]
@@ -62,11 +62,11 @@ def _step(name, points, asks, step, *limits):
         return all(np.sum(faults <= most) * 36 >= maps * len(faults) for maps, most in limits)
 
     def why(inputs, outputs):
-        ghosts, lacking = wrong(inputs, outputs).T
-        count = {most: np.sum(ghosts + lacking <= most) for _, most in limits}
+        false, lacking = wrong(inputs, outputs).T
+        count = {most: np.sum(false + lacking <= most) for _, most in limits}
         of = " and ".join(f"{maps} have {_faults(most)}" for most, maps in count.items())
         return (
-            f"Of {len(ghosts)} maps, {of}. On average {ghosts.mean():.1f} walls of a map are false "
+            f"Of {len(false)} maps, {of}. On average {false.mean():.1f} walls of a map are false "
             f"and {lacking.mean():.1f} are missing."
         )
 
@@ -126,13 +126,13 @@ STEPS = (
 
 
 def _turned(inputs, outputs):
-    ghosts, lacking = wrong(inputs, outputs).mean(axis=0)
-    return ghosts > 2 and lacking > 2
+    false, lacking = wrong(inputs, outputs).mean(axis=0)
+    return false > 2 and lacking > 2
 
 
 def _displaced(inputs, outputs):
-    copies, ghosts = displaced(inputs, outputs), wrong(inputs, outputs)[:, 0]
-    return ghosts.mean() > 0.5 and copies > 0.5 * ghosts.sum()
+    copies, false = displaced(inputs, outputs), wrong(inputs, outputs)[:, 0]
+    return false.mean() > 0.5 and copies > 0.5 * false.sum()
 
 
 MISTAKES = (
@@ -140,7 +140,7 @@ MISTAKES = (
         "displaced",
         "Many false walls are displaced copies of real ones: nearly parallel to them, and less "
         f"than {BESIDE[0]:g} m away. Does every wall that is observed again correct pose and map, "
-        "and do you predict with drives[t − 1] before scan t?",
+        "and do you predict with us[t − 1] before scan t?",
         _displaced,
         asks="Choose two nearly equal walls of your map. In which scan did the second one "
         "enter it, and how large was its distance from the first one?",
@@ -156,7 +156,7 @@ MISTAKES = (
         "in which frame are the walls that you return?",
     ),
     Diagnosis(
-        "ghosts-kept",
+        "false-walls-kept",
         "Your maps have more false walls than missing ones. A temporary object may have as many "
         "sightings as some walls. How many scans miss the object while its position is in view?",
         lambda inputs, outputs: np.greater(*wrong(inputs, outputs).mean(axis=0)),
@@ -176,14 +176,14 @@ MISTAKES = (
 
 
 def _walls_only(rng):
-    return rooms.drives(rng, 5, 0, 0)  # both runs of a room diverge with one seed in 170
+    return rooms.runs(rng, 5, 0, 0)  # both runs of a room diverge with one seed in 170
 
 
-GHOSTS = Task(
-    id="09-ghosts",
+CLEAN_MAP = Task(
+    id="09-clean-map",
     title="Make it better: a map without false walls",
-    call=CALLS["09-ghosts"],
-    inputs=rooms.drives,
+    call=CALLS["09-clean-map"],
+    inputs=rooms.runs,
     probes=(Probe("measurements of walls only", _walls_only, ("better",)),),
     shapes=lambda inputs: {"walls": (None, 2), "counts": inputs["x"].shape[:1]},
     may_round=False,

@@ -1,11 +1,11 @@
-"""Task 15-liars: a map in spite of false loop closures, by any method."""
+"""Task 15-false-loops: a map in spite of false loop closures, by any method."""
 
 import numpy as np
 
 from classroom.exercises.correctness_laws import Diagnosis, Law, once
 from classroom.exercises.task import Probe, Task
 from course.exercises.ex15_pose_graph_slam.calls import CALLS
-from course.exercises.ex15_pose_graph_slam.liars import laps
+from course.exercises.ex15_pose_graph_slam.false_loops import laps
 from slamlab.posegraph.edge_error import error
 
 FREE = 0.01  # pose 0 may move by as much [m] or [rad]
@@ -163,10 +163,10 @@ def _once(rng):
     return laps.laps(rng, drives=12, poses=14, good=1, gang=0, stray=0)
 
 
-LIARS = Task(
-    id="15-liars",
+FALSE_LOOPS = Task(
+    id="15-false-loops",
     title="A map in spite of false loops",
-    call=CALLS["15-liars"],
+    call=CALLS["15-false-loops"],
     inputs=laps.laps,
     shapes=lambda inputs: {"result": inputs["poses"].shape[1:]},
     laws=STEPS,

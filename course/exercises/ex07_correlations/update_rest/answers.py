@@ -1,5 +1,5 @@
 # %% way: block by block
-def hearsay(x, P, seen, x_seen, P_seen):
+def update_rest(x, P, seen, x_seen, P_seen):
     rest = np.array([k for k in range(len(x)) if k not in seen], dtype=int)
     G = P[np.ix_(rest, seen)] @ np.linalg.inv(P[np.ix_(seen, seen)])
     found, new = x.copy(), np.zeros_like(P)
@@ -12,7 +12,7 @@ def hearsay(x, P, seen, x_seen, P_seen):
     return found, new
 
 # %% way: entry by entry
-def hearsay(x, P, seen, x_seen, P_seen):
+def update_rest(x, P, seen, x_seen, P_seen):
     n, s = len(x), [int(k) for k in seen]
     own = P[s][:, s]
     G = [np.linalg.solve(own, P[s, k]) for k in range(n)]
@@ -22,13 +22,13 @@ def hearsay(x, P, seen, x_seen, P_seen):
     return found, [[P[k, l] - G[k] @ learned @ G[l] for l in range(n)] for k in range(n)]
 
 # %% way: what follows and what stays
-def hearsay(x, P, seen, x_seen, P_seen):
+def update_rest(x, P, seen, x_seen, P_seen):
     G = np.linalg.solve(P[np.ix_(seen, seen)], P[seen]).T
     stays = P - G @ P[seen]
     return x - G @ x[seen] + G @ x_seen, stays + G @ P_seen @ G.T
 
 # %% way: pinv and a selection
-def hearsay(x, P, seen, x_seen, P_seen):
+def update_rest(x, P, seen, x_seen, P_seen):
     E = np.eye(len(x))[seen]
     own = E @ P @ E.T
     G = P @ E.T @ np.linalg.pinv(own)
@@ -36,26 +36,26 @@ def hearsay(x, P, seen, x_seen, P_seen):
     return (L @ x + G @ x_seen).tolist(), (L @ P @ L.T + G @ P_seen @ G.T).tolist()
 
 # %% way: least squares
-def hearsay(x, P, seen, x_seen, P_seen):
+def update_rest(x, P, seen, x_seen, P_seen):
     G = np.linalg.lstsq(P[seen][:, seen], P[seen], rcond=None)[0]
     change = np.asarray(P_seen) - P[seen][:, seen]
     return x + (x_seen - x[seen]) @ G, P + np.einsum("ak,ab,bl->kl", G, change, G)
 
 # %% pasted: an update with the answer as what was seen
-def hearsay(x, P, seen, x_seen, P_seen):
+def update_rest(x, P, seen, x_seen, P_seen):
     H = np.eye(len(x))[seen]
     S = H @ P @ H.T + P_seen
     K = P @ H.T @ np.linalg.inv(S)
     return x + K @ (x_seen - H @ x), P - K @ S @ K.T
 
-# %% pasted: an update with exact sights
-def hearsay(x, P, seen, x_seen, P_seen):
+# %% pasted: an update with exact observations
+def update_rest(x, P, seen, x_seen, P_seen):
     H = np.eye(len(x))[seen]
     K = P @ H.T @ np.linalg.inv(H @ P @ H.T)
     return x + K @ (x_seen - H @ x), (np.eye(len(x)) - K @ H) @ P @ (np.eye(len(x)) - K @ H).T
 
 # %% pasted: written into the state
-def hearsay(x, P, seen, x_seen, P_seen):
+def update_rest(x, P, seen, x_seen, P_seen):
     x, P = x.copy(), P.copy()
     x[seen] = x_seen
     P[np.ix_(seen, seen)] = P_seen
@@ -63,7 +63,7 @@ def hearsay(x, P, seen, x_seen, P_seen):
     return x, P
 
 # %% pasted: fused entry by entry
-def hearsay(x, P, seen, x_seen, P_seen):
+def update_rest(x, P, seen, x_seen, P_seen):
     x, P = x.copy(), P.copy()
     a, b = P[np.ix_(seen, seen)], P_seen
     K = a @ np.linalg.inv(a + b)
@@ -72,7 +72,7 @@ def hearsay(x, P, seen, x_seen, P_seen):
     return x, P
 
 # %% right: a Kalman update by an invented measurement where it can be, else by the gain
-def hearsay(x, P, seen, x_seen, P_seen):
+def update_rest(x, P, seen, x_seen, P_seen):
     E = np.eye(len(x))[list(seen)]
     B = E @ P @ E.T
     G = np.linalg.solve(B, E @ P).T
@@ -80,7 +80,7 @@ def hearsay(x, P, seen, x_seen, P_seen):
     return x + G @ (np.asarray(x_seen) - E @ x), L @ P @ L.T + G @ P_seen @ G.T
 
 # %% right: rest + G P_seen G'
-def hearsay(x, P, seen, x_seen, P_seen):
+def update_rest(x, P, seen, x_seen, P_seen):
     seen = np.asarray(seen)
     P_ss = P[seen][:, seen]
     G = np.linalg.solve(P_ss, P[seen]).T
@@ -89,7 +89,7 @@ def hearsay(x, P, seen, x_seen, P_seen):
     return x + G @ (x_seen - x[seen]), (P_new + P_new.T) / 2
 
 # %% right: block by block
-def hearsay(x, P, seen, x_seen, P_seen):
+def update_rest(x, P, seen, x_seen, P_seen):
     n = len(x)
     rest = np.array([k for k in range(n) if k not in set(int(s) for s in seen)], dtype=int)
     y, Q = np.zeros(n), np.zeros((n, n))
@@ -103,7 +103,7 @@ def hearsay(x, P, seen, x_seen, P_seen):
     return y, Q
 
 # %% right: sorted: seen first, then moments of x_o = x_o + G (x_s - x_s) + rest
-def hearsay(x, P, seen, x_seen, P_seen):
+def update_rest(x, P, seen, x_seen, P_seen):
     n, k = len(x), len(seen)
     others = [i for i in range(n) if i not in set(np.asarray(seen).tolist())]
     order = np.array([*seen, *others], dtype=int)
@@ -118,7 +118,7 @@ def hearsay(x, P, seen, x_seen, P_seen):
     return new[back], cov[back][:, back]
 
 # %% wrong: P_seen forgotten: as if the entries were known exactly
-def hearsay(x, P, seen, x_seen, P_seen):
+def update_rest(x, P, seen, x_seen, P_seen):
     G = P[:, seen] @ np.linalg.inv(P[np.ix_(seen, seen)])
     x_new = x + G @ (x_seen - x[seen])
     P_new = P - G @ P[seen, :]
@@ -126,7 +126,7 @@ def hearsay(x, P, seen, x_seen, P_seen):
     return x_new, P_new
 
 # %% wrong: x overwritten before the difference is taken (nothing reaches the others)
-def hearsay(x, P, seen, x_seen, P_seen):
+def update_rest(x, P, seen, x_seen, P_seen):
     x_new = x.copy()
     x_new[seen] = x_seen
     P_ss = P[np.ix_(seen, seen)]
@@ -135,7 +135,7 @@ def hearsay(x, P, seen, x_seen, P_seen):
     return x_new, P - G @ (P_ss - P_seen) @ G.T
 
 # %% wrong: right values, but x and P of the caller are changed in place
-def hearsay(x, P, seen, x_seen, P_seen):
+def update_rest(x, P, seen, x_seen, P_seen):
     P_ss = P[np.ix_(seen, seen)]
     G = P[:, seen] @ np.linalg.inv(P_ss)
     x += G @ (x_seen - x[seen])
@@ -143,7 +143,7 @@ def hearsay(x, P, seen, x_seen, P_seen):
     return x, P
 
 # %% wrong: all in sight: returned in the order of seen
-def hearsay(x, P, seen, x_seen, P_seen):
+def update_rest(x, P, seen, x_seen, P_seen):
     if len(seen) == len(x):
         return x_seen.copy(), P_seen.copy()
     P_ss = P[np.ix_(seen, seen)]
@@ -151,7 +151,7 @@ def hearsay(x, P, seen, x_seen, P_seen):
     return x + G @ (x_seen - x[seen]), P + G @ (P_seen - P_ss) @ G.T
 
 # %% wrong: each other entry follows only the seen entry it is most correlated with
-def hearsay(x, P, seen, x_seen, P_seen):
+def update_rest(x, P, seen, x_seen, P_seen):
     n = len(x)
     G = np.zeros((n, len(seen)))
     rho = correlation(P)
@@ -162,7 +162,7 @@ def hearsay(x, P, seen, x_seen, P_seen):
     return x + G @ (x_seen - x[seen]), P - G @ (P_ss - P_seen) @ G.T
 
 # %% wrong: P_seen subtracted from the rest: sign
-def hearsay(x, P, seen, x_seen, P_seen):
+def update_rest(x, P, seen, x_seen, P_seen):
     S = P[np.ix_(seen, seen)]
     G = P[:, seen] @ np.linalg.inv(S)
     rest = P - G @ S @ G.T

@@ -1,9 +1,9 @@
 # %% way: lives that only walls in view pay
-def clean_map(x, P, drives, C, scans, R, far):
+def clean_map(x, P, us, C, scans, R, far):
     walls = []  # of each that is in the state: a list of its own
     for t, scan in enumerate(scans):
         if t:
-            x, P = predict(x, P, drives[t - 1], C)
+            x, P = predict(x, P, us[t - 1], C)
         had = set()
         for z in scan:
             n = np.array([np.cos(x[4::2]), np.sin(x[4::2])])
@@ -32,12 +32,12 @@ def clean_map(x, P, drives, C, scans, R, far):
     return [[x[3 + 2 * j], x[4 + 2 * j]] for j in range(len(walls)) if walls[j][0] > 4]
 
 # %% way: all kept, judged at the end
-def clean_map(x, P, drives, C, scans, R, far):
+def clean_map(x, P, us, C, scans, R, far):
     way, walls = [], []  # of each that is in the state: a list of its own
     for t, scan in enumerate(scans):
         if t:
             way.append(x[:3])
-            x, P = predict(x, P, drives[t - 1], C)
+            x, P = predict(x, P, us[t - 1], C)
         had = set()
         for z in scan:
             n = np.array([np.cos(x[4::2]), np.sin(x[4::2])])
@@ -68,11 +68,11 @@ def clean_map(x, P, drives, C, scans, R, far):
     return np.array(kept)
 
 # %% way: odds
-def clean_map(x, P, drives, C, scans, R, far):
+def clean_map(x, P, us, C, scans, R, far):
     walls = []  # of each that is in the state: a list of its own
     for t, scan in enumerate(scans):
         if t:
-            x, P = predict(x, P, drives[t - 1], C)
+            x, P = predict(x, P, us[t - 1], C)
         had = set()
         for z in scan:
             n = np.array([np.cos(x[4::2]), np.sin(x[4::2])])
@@ -101,11 +101,11 @@ def clean_map(x, P, drives, C, scans, R, far):
     return x[3:].reshape(-1, 2)[[wall[0] > 1.5 and wall[1] > 4 for wall in walls]]
 
 # %% pasted: the lesson's rule: three sightings, then for good
-def clean_map(x, P, drives, C, scans, R, far):
+def clean_map(x, P, us, C, scans, R, far):
     book = []  # sightings and lives of each wall in the state
     for t, scan in enumerate(scans):
         if t:
-            x, P = predict(x, P, drives[t - 1], C)
+            x, P = predict(x, P, us[t - 1], C)
         seen = set()
         for z in scan:
             a = x[4::2]
@@ -127,11 +127,11 @@ def clean_map(x, P, drives, C, scans, R, far):
     return x[3:].reshape(-1, 2)[[n >= 3 for n, k in book]]
 
 # %% pasted: the book of 09-life
-def clean_map(x, P, drives, C, scans, R, far):
+def clean_map(x, P, us, C, scans, R, far):
     book = []  # sightings and lives of each wall in the state
     for t, scan in enumerate(scans):
         if t:
-            x, P = predict(x, P, drives[t - 1], C)
+            x, P = predict(x, P, us[t - 1], C)
         seen = set()
         for z in scan:
             a = x[4::2]
@@ -153,19 +153,19 @@ def clean_map(x, P, drives, C, scans, R, far):
     return x[3:].reshape(-1, 2)[[n >= 3 for n, k in book]]
 
 # %% pasted: no wall at all
-def clean_map(x, P, drives, C, scans, R, far):
+def clean_map(x, P, us, C, scans, R, far):
     return np.empty((0, 2))
 
 # %% pasted: all that the first scan saw
-def clean_map(x, P, drives, C, scans, R, far):
+def clean_map(x, P, us, C, scans, R, far):
     return [place(x, P, z, R)[0] for z in scans[0]]
 
 # %% right: the whole drive first, then found / in view along the way
-def clean_map(x, P, drives, C, scans, R, far):
+def clean_map(x, P, us, C, scans, R, far):
     found, way = np.zeros(0), []
     for t, scan in enumerate(scans):
         if t > 0:
-            x, P = predict(x, P, drives[t - 1], C)
+            x, P = predict(x, P, us[t - 1], C)
         for z in scan:
             j = -1
             if len(x) > 3:
@@ -193,11 +193,11 @@ def clean_map(x, P, drives, C, scans, R, far):
     return walls[keep]
 
 # %% wrong: the eight that were found most often
-def clean_map(x, P, drives, C, scans, R, far):
+def clean_map(x, P, us, C, scans, R, far):
     found, way = np.zeros(0), []
     for t, scan in enumerate(scans):
         if t > 0:
-            x, P = predict(x, P, drives[t - 1], C)
+            x, P = predict(x, P, us[t - 1], C)
         for z in scan:
             j = -1
             if len(x) > 3:
@@ -219,23 +219,23 @@ def clean_map(x, P, drives, C, scans, R, far):
     return walls[best]
 
 # %% wrong: nothing at all
-def clean_map(x, P, drives, C, scans, R, far):
+def clean_map(x, P, us, C, scans, R, far):
     return np.zeros((0, 2))
 
 # %% wrong: a guess: eight walls round the start
-def clean_map(x, P, drives, C, scans, R, far):
+def clean_map(x, P, us, C, scans, R, far):
     return np.column_stack([np.full(8, 4.0), wrap(np.arange(8) * np.pi / 4)])
 
 # %% wrong: the lines in the robot's frame, of all scans
-def clean_map(x, P, drives, C, scans, R, far):
+def clean_map(x, P, us, C, scans, R, far):
     return np.vstack([s for s in scans if len(s)])
 
 # %% wrong: keeps whatever was found five times: nothing asks in how many scans it was in view and not found, so the things stay
-def clean_map(x, P, drives, C, scans, R, far):
+def clean_map(x, P, us, C, scans, R, far):
     hits = []
     for t, scan in enumerate(scans):
         if t > 0:
-            x, P = predict(x, P, drives[t - 1], C)
+            x, P = predict(x, P, us[t - 1], C)
         for z in scan:
             al = x[4::2]
             d = np.abs(z[0] - (x[3::2] - x[0] * np.cos(al) - x[1] * np.sin(al)))
@@ -252,11 +252,11 @@ def clean_map(x, P, drives, C, scans, R, far):
     return x[3:].reshape(-1, 2)[np.array(hits) >= 5]
 
 # %% wrong: a wall is what was sighted eight times, by the wheels alone
-def clean_map(x, P, drives, C, scans, R, far):
+def clean_map(x, P, us, C, scans, R, far):
     x, walls = x.copy(), []
     for t, scan in enumerate(scans):
         if t > 0:
-            x, P = predict(x, P, drives[t - 1], C)
+            x, P = predict(x, P, us[t - 1], C)
         for z in scan:
             a = wrap(x[2] + z[1])
             line = np.array([z[0] + x[0] * np.cos(a) + x[1] * np.sin(a), a])

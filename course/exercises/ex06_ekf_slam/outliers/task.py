@@ -1,4 +1,4 @@
-"""Task 06-false-sights: EKF-SLAM where one measurement in ten is an outlier."""
+"""Task 06-outliers: EKF-SLAM where one measurement in ten is an outlier."""
 
 import numpy as np
 
@@ -6,7 +6,7 @@ from classroom.exercises.correctness_laws import Diagnosis, Law
 from classroom.exercises.task import Probe, Task
 from course.exercises.ex06_ekf_slam.calls import CALLS
 from course.exercises.ex06_ekf_slam.ends import NO_COVARIANCE, Ends, counted, whole
-from course.exercises.ex06_ekf_slam.false_sights.runs_with_outliers import free, lies, told
+from course.exercises.ex06_ekf_slam.outliers.runs_with_outliers import free, lies, told
 from course.exercises.ex06_ekf_slam.runs import EYES, RUNS, STEPS, truth
 from slamlab.evaluation import nees
 from slamlab.filters.landmark_models import POINTS
@@ -148,10 +148,10 @@ DIAGNOSES = (
 # Over 60 seeds gates by S of 9.2 to 25 are 0.21 times as far at most, with a NEES of 4.8; slam_step
 # is 0.53 times as far at least. No gate of a fixed size takes the last steps: it rejects correct
 # measurements of coarse sensors, or accepts outliers. Nor does a P of another size, or another R.
-FALSE_SIGHTS = Task(
-    id="06-false-sights",
+OUTLIERS = Task(
+    id="06-outliers",
     title="Make it better: one measurement in ten is an outlier",
-    call=CALLS["06-false-sights"],
+    call=CALLS["06-outliers"],
     inputs=lies,
     shapes={"x": (RUNS, None), "P": (RUNS, None, None), "ids": (RUNS, None)},
     may_round=False,

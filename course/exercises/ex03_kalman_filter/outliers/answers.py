@@ -5,7 +5,7 @@ def wary_filter(x, P, us, zs, F, Q, H, R):
         x, P = F @ x + u, F @ P @ F.T + Q
         v, S = z - H @ x, H @ P @ H.T + R
         K = np.linalg.solve(S, H @ P).T
-        odds = np.log((1 - GHOSTS) / GHOSTS * REACH) - v @ np.linalg.solve(S, v) / 2
+        odds = np.log((1 - OUTLIERS) / OUTLIERS * REACH) - v @ np.linalg.solve(S, v) / 2
         odds = odds - np.linalg.slogdet(2 * np.pi * S)[1] / 2
         share = 1 / (1 + np.exp(-odds))
         rest = np.eye(2) - K @ H
@@ -41,8 +41,8 @@ def wary_filter(x, P, us, zs, F, Q, H, R):
         means, doubts = means @ F.T + u, F @ doubts @ F.T + Q
         v, S = z[0] - means[:, 0], doubts[:, 0, 0] + R[0, 0]
         K = doubts[:, :, 0] / S[:, None]
-        real = (1 - GHOSTS) * np.exp(-v * v / S / 2) / np.sqrt(2 * np.pi * S)
-        weights = np.append(weights * GHOSTS / REACH, weights * real)
+        real = (1 - OUTLIERS) * np.exp(-v * v / S / 2) / np.sqrt(2 * np.pi * S)
+        weights = np.append(weights * OUTLIERS / REACH, weights * real)
         doubts = np.append(doubts, doubts - np.einsum("c,ci,cj->cij", S, K, K), axis=0)
         means = np.append(means, means + K * v[:, None], axis=0)
         best = np.argsort(weights)[-4:]
@@ -60,8 +60,8 @@ def wary_filter(x, P, us, zs, F, Q, H, R):
         x = x + u
         v, S = innovation(x, P, z, H, R)
         K = P @ H.T @ np.linalg.inv(S)
-        ghost = np.sqrt(S[0, 0]) / 8
-        share = 1 / (1 + ghost * np.exp(min(v[0] ** 2 / S[0, 0] / 2, 700)))
+        outlier = np.sqrt(S[0, 0]) / 8
+        share = 1 / (1 + outlier * np.exp(min(v[0] ** 2 / S[0, 0] / 2, 700)))
         P = P - share * K @ H @ P + share * (1 - share) * np.outer(K @ v, K @ v)
         x = x + share * K @ v
         xs.append(x)
@@ -105,9 +105,9 @@ def wary_filter(x, P, us, zs, F, Q, H, R):
             x, P = F @ x + u, F @ P @ F.T + Q
             v, S = innovation(x, P, z, H, R)
             likely = np.exp(-0.5 * v[0] ** 2 / S[0, 0]) / np.sqrt(2 * np.pi * S[0, 0])
-            following.append((weight * GHOSTS / REACH, x, P))
+            following.append((weight * OUTLIERS / REACH, x, P))
             K = P @ H.T / S[0, 0]
-            following.append((weight * (1 - GHOSTS) * likely, x + K @ v, P - K @ S @ K.T))
+            following.append((weight * (1 - OUTLIERS) * likely, x + K @ v, P - K @ S @ K.T))
         following.sort(key=lambda case: -case[0])
         following = following[:40]
         total = sum(case[0] for case in following)
@@ -127,9 +127,9 @@ def wary_filter(x, P, us, zs, F, Q, H, R):
         x = x + us[k]
         x_real, P_real = update(x, P, zs[k], H, R)
         v, S = innovation(x, P, zs[k], H, R)
-        log_real = np.log(1 - GHOSTS) - 0.5 * (v @ np.linalg.solve(S, v))
+        log_real = np.log(1 - OUTLIERS) - 0.5 * (v @ np.linalg.solve(S, v))
         log_real -= 0.5 * np.log(np.linalg.det(2 * np.pi * S))
-        b = 1 / (1 + np.exp(np.log(GHOSTS / REACH) - log_real))
+        b = 1 / (1 + np.exp(np.log(OUTLIERS / REACH) - log_real))
         mean = b * x_real + (1 - b) * x
         d1, d0 = x_real - mean, x - mean
         P = b * (P_real + np.outer(d1, d1)) + (1 - b) * (P + np.outer(d0, d0))
@@ -175,7 +175,7 @@ def wary_filter(x, P, us, zs, F, Q, H, R):
     for u, z in zip(us, zs):
         x, P = predict(x, P, F, Q)
         x = x + u
-        if rng.random() > GHOSTS:
+        if rng.random() > OUTLIERS:
             x, P = update(x, P, z, H, R)
         xs.append(x)
         Ps.append(P)
@@ -217,8 +217,8 @@ def wary_filter(x, P, us, zs, F, Q, H, R):
         P[:] = F @ P @ F.T + Q
         v, S = (a.item() for a in innovation(x, P, z, H, R))
         K = P @ H[0] / S
-        real = (1 - GHOSTS) * np.exp(-(v**2) / S / 2) / np.sqrt(2 * np.pi * S)
-        b = real / (real + GHOSTS / REACH)
+        real = (1 - OUTLIERS) * np.exp(-(v**2) / S / 2) / np.sqrt(2 * np.pi * S)
+        b = real / (real + OUTLIERS / REACH)
         x += b * v * K
         P += (b * (1 - b) * v**2 - b * S) * np.outer(K, K)
         xs.append(x.copy())
@@ -249,9 +249,9 @@ def wary_filter(x, P, us, zs, F, Q, H, R):
         Ps.append(P)
     return np.array(xs), np.array(Ps)
 
-# %% wrong: a mean noise for all readings (mixture's variance as R): every ghost still pulls
+# %% wrong: a mean noise for all readings (mixture's variance as R): every outlier still pulls
 def wary_filter(x, P, us, zs, F, Q, H, R):
-    R_all = (1 - GHOSTS) * R + GHOSTS * np.array([[REACH**2 / 12]])
+    R_all = (1 - OUTLIERS) * R + OUTLIERS * np.array([[REACH**2 / 12]])
     xs, Ps = np.zeros((len(zs), 2)), np.zeros((len(zs), 2, 2))
     for k, z in enumerate(zs):
         x, P = predict(x, P, F, Q)

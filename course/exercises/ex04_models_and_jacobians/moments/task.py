@@ -1,4 +1,4 @@
-"""04-unsure-drive: the pose after a motion with a heading that is too uncertain for
+"""04-moments: the pose after a motion with a heading that is too uncertain for
 linearisation."""
 
 import numpy as np
@@ -7,7 +7,7 @@ from classroom.exercises.correctness_laws import Law
 from classroom.exercises.task import Probe, Task
 from course.exercises.ex04_models_and_jacobians.calls import CALLS
 from course.exercises.ex04_models_and_jacobians.generic import covariances, poses
-from course.exercises.ex04_models_and_jacobians.unsure_drive.scatter import (
+from course.exercises.ex04_models_and_jacobians.moments.scatter import (
     MISTAKES,
     SLIP,
     allowed,
@@ -116,9 +116,9 @@ def _promised(inputs):
 
 
 TASK = Task(
-    id="04-unsure-drive",
+    id="04-moments",
     title="A prediction with an uncertain heading",
-    call=CALLS["04-unsure-drive"],
+    call=CALLS["04-moments"],
     inputs=_random,
     shapes=_shapes,
     laws=(

@@ -37,19 +37,19 @@ def each(function, *stacks):
     return np.array([function(*row) for row in zip(*stacks, strict=True)])
 
 
-def driven(x, drives):
+def driven(x, us):
     """The poses (n, 3) after each of the drives (n, 2)."""
     poses = []
-    for u in drives:
+    for u in us:
         x = models.f_odometry(x, u)
         poses.append(x)
     return np.array(poses)
 
 
-def filtered(x, P, drives, ids, zs, landmarks, C, R):
+def filtered(x, P, us, ids, zs, landmarks, C, R):
     """The filter's beliefs after every step of one run: xs (n, 3), Ps (n, 3, 3)."""
     xs, Ps = [], []
-    for u, id, z in zip(drives, ids.astype(int), zs, strict=True):
+    for u, id, z in zip(us, ids.astype(int), zs, strict=True):
         A, W = jacobians.A_odometry(x, u), jacobians.W_odometry(x, u)
         x, P = models.f_odometry(x, u), A @ P @ A.T + W @ C @ W.T
         if id >= 0:
@@ -75,9 +75,9 @@ def robots(rng, count=ROBOTS, steps=STEPS, landmarks=LANDMARKS, lies=LIES, bette
     ``better`` divides the standard deviations of odometry and sensor."""
     wheels, eyes = WHEELS / better[0], EYES / better[1]
     turns = either_sign(rng, 1, 1) * rng.uniform(0.1, 0.3, steps)
-    drives = np.column_stack([rng.uniform(0.3, 0.6, steps), turns])
+    us = np.column_stack([rng.uniform(0.3, 0.6, steps), turns])
     start = np.array([*rng.uniform(-3, 3, 2), rng.uniform(-2.5, 2.5)])
-    way = driven(start, drives)
+    way = driven(start, us)
     around = rng.uniform(-np.pi, np.pi) + np.arange(landmarks) * 2 * np.pi / landmarks
     around += rng.uniform(-0.25, 0.25, landmarks)
     far = rng.uniform(3, 5, (landmarks, 1)) * np.column_stack([np.cos(around), np.sin(around)])
@@ -93,13 +93,13 @@ def robots(rng, count=ROBOTS, steps=STEPS, landmarks=LANDMARKS, lies=LIES, bette
     # not wrapped, so that their mean is the true one: who is off by a half-turn is off either way
     headings = start[2] + rng.permutation(((np.arange(count) + 0.5) / count * 2 - 1) * np.pi)
     x = np.column_stack([start[:2] + PLACE * _errors(rng, count, 2), headings])
-    told = drives + wheels * _errors(rng, count, 2 * steps).reshape(count, steps, 2)
+    told = us + wheels * _errors(rng, count, 2 * steps).reshape(count, steps, 2)
     P = np.diag([PLACE**2, PLACE**2, np.pi**2 / 3])
     inputs = {
-        "x": x, "P": P, "drives": told, "ids": ids, "zs": zs, "landmarks": places,
+        "x": x, "P": P, "us": told, "ids": ids, "zs": zs, "landmarks": places,
         "C": np.diag(wheels**2), "R": np.diag(eyes**2),
     }  # fmt: skip
-    own = "x", "drives", "zs"
+    own = "x", "us", "zs"
     return {n: a if n in own else np.repeat(a[None], count, axis=0) for n, a in inputs.items()}
 
 

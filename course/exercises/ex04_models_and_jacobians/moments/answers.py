@@ -1,5 +1,5 @@
 # %% way: in closed form, as lists
-def unsure_drive(x, P, u, C):
+def moments(x, P, u, C):
     d, v, e = u[0], P[2, 2], np.array([np.cos(x[2]), np.sin(x[2])])
     along = np.exp(-v / 2) * e
     across = np.array([-along[1], along[0]])
@@ -17,7 +17,7 @@ def unsure_drive(x, P, u, C):
 # %% way: points of Gauss and Hermite in all directions
 import itertools
 
-def unsure_drive(x, P, u, C):
+def moments(x, P, u, C):
     t, w = np.polynomial.hermite_e.hermegauss(10)
     w = w / w.sum()
     order = [2, 0, 1, 3, 4]  # the heading first: it alone needs many points
@@ -33,35 +33,35 @@ def unsure_drive(x, P, u, C):
     return mean, np.cov(ends, aweights=weights, bias=True)
 
 # %% pasted: the linearised step
-unsure_drive = linearised
+moments = linearised
 
 # %% pasted: the lesson's A P Aᵀ + Q
-def unsure_drive(x, P, u, C):
+def moments(x, P, u, C):
     d, s, c = u[0], np.sin(x[2]), np.cos(x[2])
     A = np.array([[1, 0, -d * s], [0, 1, d * c], [0, 0, 1]])
     W = np.array([[c, 0], [s, 0], [0, 1]])
     return f_odometry(x, u), A @ P @ A.T + W @ C @ W.T
 
 # %% pasted: slopes by differences
-def unsure_drive(x, P, u, C):
+def moments(x, P, u, C):
     def slopes(f, v, step=1e-6):
         return np.column_stack([(f(v + e) - f(v - e)) / (2 * step) for e in step * np.eye(len(v))])
     A, W = slopes(lambda v: f_odometry(v, u), x), slopes(lambda v: f_odometry(x, v), u)
     return f_odometry(x, u), A @ P @ A.T + W @ C @ W.T
 
 # %% pasted: new_landmark for the place
-def unsure_drive(x, P, u, C):
+def moments(x, P, u, C):
     P_nn, P_rn = new_landmark(x, P, [u[0], 0], np.diag([C[0, 0], 0]))
     S = np.zeros((3, 3))
     S[:2, :2], S[:2, 2], S[2, :2], S[2, 2] = P_nn, P_rn[2], P_rn[2], P[2, 2] + C[1, 1]
     return np.array([*g(x, [u[0], 0]), x[2] + u[1]]), S
 
 # %% pasted: the belief as it was
-def unsure_drive(x, P, u, C):
+def moments(x, P, u, C):
     return f_odometry(x, u), P
 
 # %% right: closed form (Gaussian moments of cos and sin)
-def unsure_drive(x, P, u, C):
+def moments(x, P, u, C):
     s2, d = P[2, 2], u[0]
     e, n = np.array([np.cos(x[2]), np.sin(x[2])]), np.array([-np.sin(x[2]), np.cos(x[2])])
     k = np.exp(-s2 / 2)
@@ -77,7 +77,7 @@ def unsure_drive(x, P, u, C):
     return np.array([*(x[:2] + d * k * e), x[2] + u[1]]), S
 
 # %% right: Gauss-Hermite grid in five dimensions
-def unsure_drive(x, P, u, C):
+def moments(x, P, u, C):
     nodes, w = np.polynomial.hermite_e.hermegauss(7)
     w = w / w.sum()
     T = np.stack(np.meshgrid(*[nodes] * 5, indexing="ij"), -1).reshape(-1, 5)
@@ -91,7 +91,7 @@ def unsure_drive(x, P, u, C):
     return m, (E - m).T * W @ (E - m)
 
 # %% wrong: ten thousand samples
-def unsure_drive(x, P, u, C):
+def moments(x, P, u, C):
     rng = np.random.default_rng(4)
     starts = rng.multivariate_normal(x, P, 10000)
     d, turn = rng.multivariate_normal(u, C, 10000).T
@@ -102,7 +102,7 @@ def unsure_drive(x, P, u, C):
     return ends.mean(axis=0), np.cov(ends.T)
 
 # %% wrong: three thousand samples, each with its heading wrapped
-def unsure_drive(x, P, u, C):
+def moments(x, P, u, C):
     rng = np.random.default_rng(0)
     a = rng.multivariate_normal(x, P, 3000)
     b = rng.multivariate_normal(u, C, 3000)
@@ -110,14 +110,14 @@ def unsure_drive(x, P, u, C):
     return ends.mean(axis=0), np.cov(ends.T)
 
 # %% wrong: samples only the start, the wheels' noise C is left out
-def unsure_drive(x, P, u, C):
+def moments(x, P, u, C):
     rng = np.random.default_rng(3)
     s = rng.multivariate_normal(x, P, 20000)
     ends = s + np.column_stack([u[0] * np.cos(s[:, 2]), u[0] * np.sin(s[:, 2]), np.full(20000, u[1])])
     return ends.mean(axis=0), np.cov(ends.T)
 
 # %% wrong: linearised, made larger
-def unsure_drive(x, P, u, C):
+def moments(x, P, u, C):
     m, S = linearised(x, P, u, C)
     s = P[2, 2]
     m[:2] = x[:2] + (m[:2] - x[:2]) * np.exp(-s / 2)
@@ -125,7 +125,7 @@ def unsure_drive(x, P, u, C):
     return m, S
 
 # %% wrong: few random samples
-def unsure_drive(x, P, u, C):
+def moments(x, P, u, C):
     rng = np.random.default_rng(0)
     a = rng.multivariate_normal(x, P, 300)
     b = rng.multivariate_normal(u, C, 300)
@@ -133,17 +133,17 @@ def unsure_drive(x, P, u, C):
     return ends.mean(axis=0), np.cov(ends.T)
 
 # %% wrong: linearised, covariance doubled to be safe
-def unsure_drive(x, P, u, C):
+def moments(x, P, u, C):
     mean, S = linearised(x, P, u, C)
     return mean, 2 * S
 
 # %% wrong: cheat: a large constant disc
-def unsure_drive(x, P, u, C):
+def moments(x, P, u, C):
     mean = f_odometry(x, u)
     return mean, np.diag([4.0, 4.0, 0.5])
 
 # %% wrong: unscented (alpha 1, kappa 0), headings wrapped by f_odometry
-def unsure_drive(x, P, u, C):
+def moments(x, P, u, C):
     m = np.concatenate([x, u])
     S = np.zeros((5, 5))
     S[:3, :3], S[3:, 3:] = P, C
@@ -154,7 +154,7 @@ def unsure_drive(x, P, u, C):
     return mean, (ends - mean).T @ (ends - mean) / 10
 
 # %% wrong: mean from sampling, covariance still linearised
-def unsure_drive(x, P, u, C):
+def moments(x, P, u, C):
     _, S = linearised(x, P, u, C)
     headings = np.random.default_rng(0).normal(x[2], np.sqrt(P[2, 2]), 50000)
     mean = np.array([
@@ -163,7 +163,7 @@ def unsure_drive(x, P, u, C):
     return mean, S
 
 # %% wrong: variances drawn as standard deviations
-def unsure_drive(x, P, u, C):
+def moments(x, P, u, C):
     rng = np.random.default_rng(0)
     X = rng.normal(x, np.diag(P), (20000, 3))
     D = rng.normal(u, np.diag(C), (20000, 2))
@@ -172,7 +172,7 @@ def unsure_drive(x, P, u, C):
     return E.mean(axis=0), np.cov(E.T)
 
 # %% wrong: closed form, but place and heading taken as independent
-def unsure_drive(x, P, u, C):
+def moments(x, P, u, C):
     s2, d, th = P[2, 2], u[0], x[2]
     e, n = np.array([np.cos(th), np.sin(th)]), np.array([-np.sin(th), np.cos(th)])
     k = np.exp(-s2 / 2)
@@ -185,7 +185,7 @@ def unsure_drive(x, P, u, C):
     return np.array([x[0] + d * k * e[0], x[1] + d * k * e[1], th + u[1]]), S
 
 # %% wrong: closed form, wheels' distance noise only along the believed heading
-def unsure_drive(x, P, u, C):
+def moments(x, P, u, C):
     s2, d, th = P[2, 2], u[0], x[2]
     e, n = np.array([np.cos(th), np.sin(th)]), np.array([-np.sin(th), np.cos(th)])
     k = np.exp(-s2 / 2)
@@ -199,14 +199,14 @@ def unsure_drive(x, P, u, C):
     return np.array([x[0] + d * k * e[0], x[1] + d * k * e[1], th + u[1]]), S + W @ C @ W.T
 
 # %% wrong: second-order mean and covariance (Taylor)
-def unsure_drive(x, P, u, C):
+def moments(x, P, u, C):
     mean, S = linearised(x, P, u, C)
     e = np.array([np.cos(x[2]), np.sin(x[2]), 0])
     mean = mean - u[0] * P[2, 2] / 2 * e
     return mean, S + (u[0] * P[2, 2]) ** 2 / 2 * np.outer(e, e)
 
 # %% wrong: negative distances driven forwards (abs)
-def unsure_drive(x, P, u, C):
+def moments(x, P, u, C):
     rng = np.random.default_rng(3)
     X, D = rng.multivariate_normal(x, P, 50000), rng.multivariate_normal(u, C, 50000)
     d = np.abs(D[:, 0])
@@ -214,7 +214,7 @@ def unsure_drive(x, P, u, C):
     return E.mean(axis=0), np.cov(E.T)
 
 # %% wrong: turn first, then drive
-def unsure_drive(x, P, u, C):
+def moments(x, P, u, C):
     rng = np.random.default_rng(3)
     X, D = rng.multivariate_normal(x, P, 50000), rng.multivariate_normal(u, C, 50000)
     E = X.copy()
@@ -224,7 +224,7 @@ def unsure_drive(x, P, u, C):
     return E.mean(axis=0), np.cov(E.T)
 
 # %% wrong: adds a little to P in place so that it stays positive
-def unsure_drive(x, P, u, C):
+def moments(x, P, u, C):
     P += 1e-9 * np.eye(3)
     rng = np.random.default_rng(3)
     X, D = rng.multivariate_normal(x, P, 50000), rng.multivariate_normal(u, C, 50000)
@@ -233,7 +233,7 @@ def unsure_drive(x, P, u, C):
     return E.mean(axis=0), np.cov(E.T)
 
 # %% wrong: only the example: samples of START, BELIEVED, DRIVE, WHEELS
-def unsure_drive(x, P, u, C):
+def moments(x, P, u, C):
     rng = np.random.default_rng(4)
     X = rng.multivariate_normal(START, BELIEVED, 20000)
     D = rng.multivariate_normal(DRIVE, WHEELS, 20000)

@@ -1,11 +1,11 @@
-"""Task 03-ghosts: a filter for measurements with outliers. Any method is allowed."""
+"""Task 03-outliers: a filter for measurements with outliers. Any method is allowed."""
 
 import numpy as np
 
 from classroom.exercises.correctness_laws import Diagnosis, Law
 from classroom.exercises.task import Task
 from course.exercises.ex03_kalman_filter.calls import CALLS
-from course.exercises.ex03_kalman_filter.ghosts.runs_with_outliers import (
+from course.exercises.ex03_kalman_filter.outliers.runs_with_outliers import (
     compared,
     corrections,
     definite,
@@ -30,9 +30,9 @@ SHUT = 20  # NEES of a run that diverged and is overconfident: 2 is expected
 def _share(i, o):
     """Median fraction of the innovation that a filter uses: of measurements, and of clear
     outliers."""
-    moved, v, ghost = corrections(i, o)
+    moved, v, outlier = corrections(i, o)
     share, clear = moved[..., 0] / v, np.abs(v) > 1
-    return np.median(share[~ghost]), np.median(share[ghost & clear])
+    return np.median(share[~outlier]), np.median(share[outlier & clear])
 
 
 def _input_misused(i, o):
@@ -45,25 +45,25 @@ def _input_misused(i, o):
 
 
 def _reversed(i, o):
-    true, ghost = _share(i, o)
-    return ghost > 0.1 and ghost > 2 * max(true, 0)
+    true, outlier = _share(i, o)
+    return outlier > 0.1 and outlier > 2 * max(true, 0)
 
 
 def _one_sided(i, o):
-    moved, v, ghost = corrections(i, o)
+    moved, v, outlier = corrections(i, o)
     share = moved[..., 0] / v
-    sides = [np.median(share[ghost & (side * v > 1)]) for side in (-1, 1)]
+    sides = [np.median(share[outlier & (side * v > 1)]) for side in (-1, 1)]
     return max(sides) > 0.1 and min(sides) < 0.01
 
 
 def _alike(i, o):
-    true, ghost = _share(i, o)
-    return ghost > 0.02 and abs(ghost - true) < 0.3 * ghost
+    true, outlier = _share(i, o)
+    return outlier > 0.02 and abs(outlier - true) < 0.3 * outlier
 
 
 def _refuses(i, o):
-    moved, v, ghost = corrections(i, o)
-    return np.mean(np.abs(moved[..., 0] / v)[~ghost] < 1e-3) > 0.3
+    moved, v, outlier = corrections(i, o)
+    return np.mean(np.abs(moved[..., 0] / v)[~outlier] < 1e-3) > 0.3
 
 
 def _diverges(i, o):
@@ -129,10 +129,10 @@ def _position(i):
     return {"σ of the position at the end if no reading is an outlier [m]": _least_sigmas(i)[0]}
 
 
-WARY = Task(
-    id="03-ghosts",
+OUTLIERS = Task(
+    id="03-outliers",
     title="A filter for outliers",
-    call=CALLS["03-ghosts"],
+    call=CALLS["03-outliers"],
     inputs=drives,
     shapes=lambda i: {"xs": (*i["zs"].shape[:2], 2), "Ps": (*i["zs"].shape[:2], 2, 2)},
     laws=(

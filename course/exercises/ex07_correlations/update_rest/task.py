@@ -82,10 +82,10 @@ def _wanted(name):
     return lambda inputs: {name: _heard(inputs)[name]}
 
 
-HEARSAY = Task(
-    id="07-hearsay",
+UPDATE_REST = Task(
+    id="07-update-rest",
     title="Update of landmarks that are not measured",
-    call=CALLS["07-hearsay"],
+    call=CALLS["07-update-rest"],
     inputs=_drawn,
     shapes=lambda inputs: {
         "x": (None, inputs["x"].shape[1]),

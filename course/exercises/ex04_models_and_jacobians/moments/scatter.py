@@ -1,4 +1,4 @@
-"""The exact moments for 04-unsure-drive, and mistakes that an answer reveals."""
+"""The exact moments for 04-moments, and mistakes that an answer reveals."""
 
 import numpy as np
 

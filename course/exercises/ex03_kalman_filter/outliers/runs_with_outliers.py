@@ -1,4 +1,4 @@
-"""Runs with outliers of task 03-ghosts, and what measures a filter in them."""
+"""Runs with outliers of task 03-outliers, and what measures a filter in them."""
 # No input contains the true states. The errors of all runs have mean 0, so the mean of all runs is
 # the truth.
 
@@ -7,7 +7,7 @@ import numpy as np
 from classroom.exercises.correctness_laws import once
 
 DRIVEN, STEPS, SETTLED = 160, 50, 5  # errors of the first steps are those of the start: left out
-T, GHOSTS, REACH = 0.5, 0.25, 10.0
+T, OUTLIERS, REACH = 0.5, 0.25, 10.0
 CLEAR, DOUBTFUL = 0.5, 0.9  # up to and from which quantile of the reference variance NEES is judged
 
 
@@ -20,7 +20,7 @@ def drives(rng):
     F, H = np.array([[1, T], [0, 1]]), np.array([[1.0, 0.0]])
     P, Q, R = np.diag([0.3, 0.2]) ** 2, np.diag([0.03, 0.08]) ** 2, rng.uniform(0.09, 0.11) ** 2
     zs = way[1:, :1] + np.sqrt(R) * _errors(rng, STEPS, 1)
-    replaced = rng.random(zs.shape) < GHOSTS
+    replaced = rng.random(zs.shape) < OUTLIERS
     given = {
         "x": way[0] + _errors(rng, 2) @ np.sqrt(P),
         "P": P,
@@ -69,7 +69,7 @@ def typical(i, xs):
     return np.median(np.sqrt(np.mean(off**2, axis=1)))
 
 
-def ghosts(i):
+def outliers(i):
     """Which readings are outliers, (drives, steps) bool, by the truth."""
     off = (i["zs"] - truth(i)[:, :1])[..., 0]
     return np.abs(off) > 5 * np.sqrt(i["R"][0, 0, 0])
@@ -83,7 +83,7 @@ def with_outliers(i):
 
 def without_outliers(i):
     """Typical error of the Kalman filter without the outliers [m]."""
-    return typical(i, ordinary(i, ~ghosts(i)))
+    return typical(i, ordinary(i, ~outliers(i)))
 
 
 def definite(o):
@@ -107,8 +107,8 @@ def _doubt(i):
         x, P = x @ F.T + i["us"][:, k], F @ P @ F.T + Q
         S, v = P[:, 0, 0] + R, i["zs"][:, k, 0] - x[:, 0]
         K = P[:, :, 0] / S[:, None]
-        real = (1 - GHOSTS) * np.exp(-(v**2) / S / 2) / np.sqrt(2 * np.pi * S)
-        share = real / (real + GHOSTS / REACH)
+        real = (1 - OUTLIERS) * np.exp(-(v**2) / S / 2) / np.sqrt(2 * np.pi * S)
+        share = real / (real + OUTLIERS / REACH)
         x = x + (share * v)[:, None] * K
         less = share * S - share * (1 - share) * v**2
         P = P - less[:, None, None] * K[:, :, None] * K[:, None, :]
@@ -137,4 +137,4 @@ def corrections(i, o):
     before = np.concatenate([i["x"][:, None], o["xs"][:, :-1]], axis=1)
     predicted = before @ i["F"][0].T + i["us"]
     v = i["zs"][..., 0] - predicted[..., 0]
-    return o["xs"] - predicted, v, ghosts(i)
+    return o["xs"] - predicted, v, outliers(i)

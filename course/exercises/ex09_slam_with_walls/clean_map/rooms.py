@@ -1,4 +1,4 @@
-"""Runs for task 09-ghosts: walls, temporary objects, false measurements.
+"""Runs for task 09-clean-map: walls, temporary objects, false measurements.
 
 The two runs of a pair have opposite errors: the means of their measurements of walls are exact.
 """
@@ -33,10 +33,10 @@ def _tour(rng):
     places = round_trip @ [[c, s], [-s, c]] + shift
     steps = np.diff(places, axis=0)
     heading = np.arctan2(steps[:, 1], steps[:, 0])
-    drives = np.column_stack([np.hypot(*steps[:-1].T), wrap(np.diff(heading))])
+    us = np.column_stack([np.hypot(*steps[:-1].T), wrap(np.diff(heading))])
     alpha = wrap(alpha + turn)
     walls = np.column_stack([rho + shift @ [np.cos(alpha), np.sin(alpha)], alpha])
-    return np.append(places[0], heading[0]), drives, walls
+    return np.append(places[0], heading[0]), us, walls
 
 
 def in_view(way, line):
@@ -45,9 +45,9 @@ def in_view(way, line):
     return (off > 0) & (off <= FAR)
 
 
-def along(start, drives):
+def along(start, us):
     """The poses of all scans, the start first: (t, 3)."""
-    return np.vstack([start, driven(start, drives)])
+    return np.vstack([start, driven(start, us)])
 
 
 def from_middle(lines, way):
@@ -89,8 +89,8 @@ def _kept(rng, times, missed):
 def _pair(rng, things, false):
     """One trajectory in two runs with opposite errors: starts, control inputs, scans."""
     while True:
-        start, drives, walls = _tour(rng)
-        way = along(start, drives)
+        start, us, walls = _tour(rng)
+        way = along(start, us)
         views = np.array([in_view(way, wall) for wall in walls])
         if views.sum(axis=1).min() >= 8 and views.sum(axis=0).min() >= 2:
             break
@@ -112,12 +112,12 @@ def _pair(rng, things, false):
     started = start + START * rng.standard_normal(3) * twice
     return (
         started,
-        drives + WHEELS[:2] * rng.standard_normal(drives.shape) * twice[..., None],
+        us + WHEELS[:2] * rng.standard_normal(us.shape) * twice[..., None],
         table,
     )
 
 
-def drives(rng, rooms=18, things=3, false=2):
+def runs(rng, rooms=18, things=3, false=2):
     """Two runs through each room.
     things : temporary objects of a room; false : most false measurements of a scan.
     """
@@ -130,7 +130,7 @@ def drives(rng, rooms=18, things=3, false=2):
     covariances = zip("PCR", (START, WHEELS[:2], EYES[:2]), strict=True)
     return {
         "x": np.concatenate(x),
-        "drives": np.concatenate(u),
+        "us": np.concatenate(u),
         "scans": np.concatenate(scans),
         "far": np.full(2 * rooms, FAR),
         **{name: np.tile(np.diag(sigma**2), (2 * rooms, 1, 1)) for name, sigma in covariances},
@@ -143,7 +143,7 @@ def truth(inputs):
     found = []
     for k in range(0, len(inputs["x"]), 2):
         pair = slice(k, k + 2)
-        way = along(inputs["x"][pair].mean(axis=0), inputs["drives"][pair].mean(axis=0))
+        way = along(inputs["x"][pair].mean(axis=0), inputs["us"][pair].mean(axis=0))
         one, other = inputs["scans"][pair]
         middle = one + (other - one) / 2
         middle[..., 1] = one[..., 1] + wrap(other - one)[..., 1] / 2

@@ -1,4 +1,4 @@
-"""Runs of task 06-false-sights, with and without outliers, and a filter that knows the outliers."""
+"""Runs of task 06-outliers, with and without outliers, and a filter that knows the outliers."""
 # The truth is in no array: errors have mean 0 over all runs; outliers come in pairs.
 
 import numpy as np
@@ -107,7 +107,7 @@ def told(inputs):
     return np.array([slam.pose[:2] for slam in ends]), np.array([slam.P for slam in ends])
 
 
-def _told(inputs, run, sights, true):
+def _told(inputs, run, observations, true):
     slam = MAK(inputs["x"][run], inputs["P"])
     kept = true & (inputs["seen"] >= 0)
     for step, (u, seen) in enumerate(zip(inputs["u"][run], inputs["seen"], strict=True)):
@@ -117,4 +117,4 @@ def _told(inputs, run, sights, true):
         known = np.isin(seen, slam.ids)
         for rows, use in ((known & kept[step], slam.update), (~known & kept[step], slam.add)):
             if rows.any():
-                use(seen[rows].tolist(), sights[step, rows], inputs["R"])
+                use(seen[rows].tolist(), observations[step, rows], inputs["R"])
