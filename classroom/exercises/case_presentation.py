@@ -140,7 +140,7 @@ PRESENTATIONS = {
         "first call gets an empty book; each later call gets the book that the previous call "
         "returned:",
         "after each call, for each id that occurs in any scan, in ascending order: whether the id "
-        "is in the book, its remaining lives and its `sightings`, and how often it is in used:",
+        "is in the book, its remaining lives and its `observations`, and how often it is in used:",
     ),
     "10-relaxed": CasePresentation(shown=_relaxed),
     "11-draw": CasePresentation(

@@ -1,5 +1,6 @@
 """Exercise 05, localisation and mapping. In this order: ``observations`` (inputs, reference
-filter), ``locate``, ``localise``, ``alternate``, ``ranges`` (ranges only), ``lost`` (unknown heading)."""
+filter), ``locate``, ``localise``, ``alternate``, ``ranges`` (ranges only), ``lost`` (unknown
+heading)."""
 
 from classroom.exercises.exercise import Exercise
 from course.exercises.ex05_localisation_and_mapping.alternate.task import ALTERNATE

@@ -44,7 +44,7 @@ def ids_of(scans):
 def _call_keep_book(functions, inputs):
     ids = ids_of(inputs["scans"])
     shape = *inputs["scans"].shape[:2], ids.shape[1]
-    found = {name: np.zeros(shape) for name in ("inside", "left", "sightings", "used")}
+    found = {name: np.zeros(shape) for name in ("inside", "left", "observations", "used")}
     for row, scans in enumerate(inputs["scans"]):
         column = {int(i): k for k, i in enumerate(ids[row]) if i >= 0}
         N, lives, book = int(inputs["N"][row]), int(inputs["lives"][row]), {}
@@ -53,7 +53,7 @@ def _call_keep_book(functions, inputs):
             book, used = _book(functions["keep_book"](dict(book), seen, N, lives), column)
             for i, pair in book.items():
                 at = row, k, column[i]
-                found["inside"][at], found["sightings"][at], found["left"][at] = 1, *pair
+                found["inside"][at], found["observations"][at], found["left"][at] = 1, *pair
             for i in used:
                 found["used"][row, k, column[i]] += 1
     return found
@@ -69,7 +69,7 @@ def _book(value, column):
         pair = to_array(entry, "keep_book's entry")
         if pair.shape != (2,):
             raise StudentError(
-                "malformed", "an entry of the book must be two numbers (`sightings`, lives left)"
+                "malformed", "an entry of the book must be two numbers (`observations`, lives left)"
             )
         book[int(i)] = tuple(pair.tolist())
     used = value[1]

@@ -80,18 +80,18 @@ def _():
 
 
 # %% [markdown]
-# ## 2 · Track management: sightings and lives
+# ## 2 · Track management: observations and lives
 #
-# A dictionary, the book, stores for each wall how many scans have observed it (its *sightings*), and after how many
-# further misses in a row it is deleted (its *lives left*): `book[id] = (sightings, lives left)`. Each scan gives
+# A dictionary, the book, stores for each wall how many scans have observed it (its *observations*), and after how many
+# further misses in a row it is deleted (its *lives left*): `book[id] = (observations, lives left)`. Each scan gives
 # `seen`, the list of the ids of the observed walls. The rules are:
 #
-# - A new id enters the book with one sighting and `lives` lives.
-# - A wall that is observed again gets one more sighting, and it has `lives` lives again. An id may occur more than
-#   once in a scan; this counts as one sighting.
+# - A new id enters the book with one observation and `lives` lives.
+# - A wall that is observed again gets one more observation, and it has `lives` lives again. An id may occur more than
+#   once in a scan; this counts as one observation.
 # - A wall that is not observed loses one life. At 0 lives it is deleted from the book. If it is observed later, it
 #   is a new wall.
-# - `used` contains the walls of *this scan* that have at least `N` sightings, this scan included: the confirmed ones.
+# - `used` contains the walls of *this scan* that have at least `N` observations, this scan included: the confirmed ones.
 
 # %% [markdown]
 # **Your task.** Return the book after the scan, and the list of the ids used, in any order. The book and the scan
@@ -100,19 +100,19 @@ def _():
 # run and your results as tables with one row for each scan. In the table of scans, shorter rows are padded with
 # −1. In the tables of your results there is one column for each id, in ascending order. For example, with `lives`
 # = 3, three scans observe the wall 7, no wall, and the walls 4 and 7. Then the first columns belong to wall 4,
-# the second ones to wall 7, and these are the correct tables of scans and of sightings:
+# the second ones to wall 7, and these are the correct tables of scans and of observations:
 #
 # $$ \text{scans} = \begin{bmatrix} 7 & -1 \\ -1 & -1 \\ 4 & 7 \end{bmatrix}, \qquad
-# \text{sightings} = \begin{bmatrix} 0 & 1 \\ 0 & 1 \\ 1 & 2 \end{bmatrix}. $$
+# \text{observations} = \begin{bmatrix} 0 & 1 \\ 0 & 1 \\ 1 & 2 \end{bmatrix}. $$
 #
-# (A wall that is not in the book has 0 sightings and 0 lives in these tables.)
+# (A wall that is not in the book has 0 observations and 0 lives in these tables.)
 
 
 # %%
 def keep_book(book, seen, N, lives):
     """Track management of one scan; returns book, used.
 
-    book : dict from id to (sightings, lives left);  seen : list of ids;  N, lives : int
+    book : dict from id to (observations, lives left);  seen : list of ids;  N, lives : int
     """
     ### BEGIN SOLUTION
     after = {}
@@ -403,20 +403,20 @@ def _():
 #   view and nothing is there.
 #
 # Some walls are in view longer than others. The wall that is in view for the shortest time may have no more
-# sightings than a temporary object. Odometry alone drifts: after the round, $\sigma$ of its heading is 0.25 rad.
+# observations than a temporary object. Odometry alone drifts: after the round, $\sigma$ of its heading is 0.25 rad.
 
 # %%
 ask(
     "ex09-often",
-    "By the lesson's rule a wall enters the map after `N` sightings. **Which `N` admits all walls, and neither "
+    "By the lesson's rule a wall enters the map after `N` observations. **Which `N` admits all walls, and neither "
     "false measurements nor temporary objects?**",
     {
         "3, as in the lesson": "it rejects the false measurements. But a temporary object that is present in a dozen scans has "
-        "more sightings than that.",
-        "5": "four of five scans detect a temporary object while it is present, so it has about ten sightings.",
+        "more observations than that.",
+        "5": "four of five scans detect a temporary object while it is present, so it has about ten observations.",
         "10 or more": "this begins to reject the temporary objects, but also the wall that is in view for the shortest time.",
-        "none": "the wall in view for the shortest time may have no more sightings than a temporary object. The number of "
-        "sightings alone is not enough.",
+        "none": "the wall in view for the shortest time may have no more observations than a temporary object. The number of "
+        "observations alone is not enough.",
     },
     right="none",
 )

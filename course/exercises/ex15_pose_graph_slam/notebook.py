@@ -263,7 +263,7 @@ ask(
 )
 
 
-# %% name="heard" answers="ex15-nine"
+# %% name="received-ranges" answers="ex15-nine"
 @attempt
 def _():
     start, edges = hall()

@@ -99,7 +99,7 @@ def _nearest(inputs):
 
 
 @once
-def heard(inputs):
+def first_echo(inputs):
     """Least distance of all walls (n,), and which of ``WAYS``."""
     right, kind = _nearest(inputs)
     if not right.shape[1]:
@@ -117,20 +117,20 @@ def _on_the_way(inputs):
 
 def _law(name, points, says, ways, asks, **more):
     def holds(inputs, outputs):
-        right, kind = heard(inputs)
+        right, kind = first_echo(inputs)
         return ~np.isin(kind, ways) | distance_is(inputs, outputs, right)
 
-    want = lambda inputs: as_outputs(heard(inputs)[0])  # noqa: E731
+    want = lambda inputs: as_outputs(first_echo(inputs)[0])  # noqa: E731
     return Law(name, points, says, holds, want=want, asks=asks, step=_on_the_way, **more)
 
 
 def _heard_at_all(inputs, outputs):
-    return outputs["met"] == np.isfinite(heard(inputs)[0])
+    return outputs["met"] == np.isfinite(first_echo(inputs)[0])
 
 
 def _beams(inputs, outputs):
     # sampled beams miss the foot of the perpendicular
-    right, kind = heard(inputs)
+    right, kind = first_echo(inputs)
     foot = (kind == "foot") & (outputs["met"] == 1)
     off = outputs["distance"][foot] - right[foot]
     share = off / right[foot]
@@ -151,7 +151,7 @@ FAN = Diagnosis(
 
 
 def _parts(inputs, outputs):
-    _, kind = heard(inputs)
+    _, kind = first_echo(inputs)
     both = np.column_stack([outputs["met"], outputs["distance"]])
     return {name: both[kind == name] for name in WAYS}
 
@@ -198,7 +198,7 @@ ECHO = Task(
             0.5,
             "the result is inf if no point of any wall lies in the cone, and only then",
             _heard_at_all,
-            want=lambda inputs: as_outputs(heard(inputs)[0]),
+            want=lambda inputs: as_outputs(first_echo(inputs)[0]),
             asks="Can a wall be in the cone although no beam that you try meets the wall?",
             step=_on_the_way,
         ),

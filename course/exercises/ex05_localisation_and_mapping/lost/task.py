@@ -190,7 +190,7 @@ LOST = Task(
             "measurements agree?",
         ),
         Diagnosis(
-            "every-sight-believed",
+            "every-observation-believed",
             "The headings may be right, but hardly any position is right. Do you use every "
             "measurement, even the outliers? Compare each innovation with S before the update.",
             _believing,

@@ -100,9 +100,9 @@ def clean_map(x, P, us, C, scans, R, far):
         x, P, walls = x[at], P[np.ix_(at, at)], [w for w, g in zip(walls, good) if g]
     return x[3:].reshape(-1, 2)[[wall[0] > 1.5 and wall[1] > 4 for wall in walls]]
 
-# %% pasted: the lesson's rule: three sightings, then for good
+# %% pasted: the lesson's rule: three observations, then for good
 def clean_map(x, P, us, C, scans, R, far):
-    book = []  # sightings and lives of each wall in the state
+    book = []  # observations and lives of each wall in the state
     for t, scan in enumerate(scans):
         if t:
             x, P = predict(x, P, us[t - 1], C)
@@ -128,7 +128,7 @@ def clean_map(x, P, us, C, scans, R, far):
 
 # %% pasted: the book of 09-life
 def clean_map(x, P, us, C, scans, R, far):
-    book = []  # sightings and lives of each wall in the state
+    book = []  # observations and lives of each wall in the state
     for t, scan in enumerate(scans):
         if t:
             x, P = predict(x, P, us[t - 1], C)

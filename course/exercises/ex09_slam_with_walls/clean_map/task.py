@@ -84,7 +84,7 @@ def _faults(most):
 
 # Over 100 seeds at least 33 of 36 maps of the solution have at most one false or missing wall, and
 # at least 27 have none. No map by the lesson's rule does, since it contains the temporary objects.
-# Of 12 maps of the eight lines with most sightings up to 5 have none, but never 7 at most one.
+# Of 12 maps of the eight lines with most observations up to 5 have none, but never 7 at most one.
 STEPS = (
     _step(
         "better",
@@ -107,7 +107,7 @@ STEPS = (
         2,
         "Which walls are missing: those that were in view only for a short time?",
         "Print for each line of your map the number of scans with the line in view, and the number "
-        "of its sightings. For a wall the quotient is about 0.8.",
+        "of its observations. For a wall the quotient is about 0.8.",
         (21, 1),
     ),
     _step(
@@ -158,7 +158,7 @@ MISTAKES = (
     Diagnosis(
         "false-walls-kept",
         "Your maps have more false walls than missing ones. A temporary object may have as many "
-        "sightings as some walls. How many scans miss the object while its position is in view?",
+        "observations as some walls. How many scans miss the object while its position is in view?",
         lambda inputs, outputs: np.greater(*wrong(inputs, outputs).mean(axis=0)),
         asks="For each wall of one of your maps, in how many scans was it in view, and in "
         "how many of these was it measured?",

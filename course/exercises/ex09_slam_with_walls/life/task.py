@@ -31,11 +31,11 @@ def _gaps(rng):
 
 @once
 def truth(inputs):
-    """The book after each scan, by counting: `lives` minus the scans since the last sighting;
-    the sightings since the last gap of `lives` scans or more.
+    """The book after each scan, by counting: `lives` minus the scans since the last observation;
+    the observations since the last gap of `lives` scans or more.
     """
     ids, (seen,) = ids_of(inputs["scans"]), _observed(inputs).values()
-    found = {name: np.zeros(seen.shape) for name in ("inside", "left", "sightings", "used")}
+    found = {name: np.zeros(seen.shape) for name in ("inside", "left", "observations", "used")}
     for row, column in np.ndindex(ids.shape):
         lives, N = int(inputs["lives"][row]), int(inputs["N"][row])
         times = np.flatnonzero(seen[row, :, column])
@@ -46,7 +46,7 @@ def truth(inputs):
             deaths = np.flatnonzero(np.diff(past) > lives)
             since = len(past) - (deaths[-1] + 1 if len(deaths) else 0)
             found["inside"][at], found["left"][at] = 1, lives - (k - past[-1])
-            found["sightings"][at], found["used"][at] = since, seen[at] and since >= N
+            found["observations"][at], found["used"][at] = since, seen[at] and since >= N
     return found
 
 
@@ -58,12 +58,12 @@ def _observed(inputs):
 
 
 def _gap(inputs):
-    """Scans since the last sighting, −1 before the first, (n, scans, walls)."""
+    """Scans since the last observation, −1 before the first, (n, scans, walls)."""
     (seen,) = _observed(inputs).values()
     scan = np.arange(seen.shape[1])[:, None]
     last = np.maximum.accumulate(np.where(seen, scan, -1), axis=1)
     gap = np.where(last < 0, -1, scan - last)
-    return {"scans since the last sighting of each wall (−1: no sighting yet)": gap}
+    return {"scans since the last observation of each wall (−1: no observation yet)": gap}
 
 
 def _while_inside(name):
@@ -97,12 +97,12 @@ def _lives(inputs, outputs):
 def _shapes(inputs):
     rows, scans, _ = inputs["scans"].shape
     walls = ids_of(inputs["scans"]).shape[1]
-    return dict.fromkeys(("inside", "left", "sightings", "used"), (rows, scans, walls))
+    return dict.fromkeys(("inside", "left", "observations", "used"), (rows, scans, walls))
 
 
 LIFE = Task(
     id="09-life",
-    title="Track management: sightings and lives",
+    title="Track management: observations and lives",
     call=CALLS["09-life"],
     inputs=sequences,
     probes=(
@@ -124,26 +124,26 @@ LIFE = Task(
         ),
         _counts(
             "left",
-            "a wall has `lives` lives minus the scans since its last sighting",
-            "How many lives does a sighting restore, and how many does a miss cost?",
+            "a wall has `lives` lives minus the scans since its last observation",
+            "How many lives does a observation restore, and how many does a miss cost?",
             _lives,
             alone=False,
             step=_gap,
         ),
         _counts(
-            "sightings",
-            "a wall has one sighting for each scan with its id since it entered the book",
-            "How many sightings does a scan add if it contains the id of a wall twice?",
-            _while_inside("sightings"),
+            "observations",
+            "a wall has one observation for each scan with its id since it entered the book",
+            "How many observations does a scan add if it contains the id of a wall twice?",
+            _while_inside("observations"),
             after=("inside",),
             step=_gap,
         ),
         _counts(
             "used",
-            "`used` contains each wall of this scan with at least N sightings, once",
-            "Does the sighting of this scan count? And can a wall be used without a measurement?",
+            "`used` contains each wall of this scan with at least N observations, once",
+            "Does the observation of this scan count? Can a wall be used without a measurement?",
             _while_inside("used"),
-            after=("inside", "sightings"),
+            after=("inside", "observations"),
             step=_observed,
         ),
     ),

@@ -15,10 +15,10 @@ SEEK, CLIMB, TRIES = 400, 30, 40  # rounds at most, and tries in each
 def inputs(rng, n=ROWS, objects=OBJECTS, far=(1.5, 4), half=(0.6, 1.2)):
     """Robots in their boxes; every other one has errors near their bounds."""
     pose = np.column_stack([rng.uniform(-3, 3, (n, 2)), rng.uniform(-np.pi, np.pi, n)])
-    return sightings(rng, pose, objects, far, half)
+    return observations(rng, pose, objects, far, half)
 
 
-def sightings(rng, pose, objects=OBJECTS, far=(1.5, 4), half=(0.6, 1.2)):
+def observations(rng, pose, objects=OBJECTS, far=(1.5, 4), half=(0.6, 1.2)):
     """What robots at poses (n, 3) know and measure."""
     n = len(pose)
     round_about = np.arange(objects) * 2 * np.pi / max(objects, 1) + rng.uniform(

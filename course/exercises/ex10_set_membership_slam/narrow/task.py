@@ -139,7 +139,7 @@ def _wide(rng):
 
 def _across_pi(rng):
     at = np.column_stack([rng.uniform(-3, 3, (2, 2)), np.pi + rng.uniform(-0.1, 0.1, 2)])
-    return poses.sightings(rng, at)
+    return poses.observations(rng, at)
 
 
 NARROW = Task(
