@@ -46,8 +46,8 @@ from slamlab.readings import Scan
 from slamlab.simulation import RPLIDAR_A2, worlds
 from slamlab.sources.simulated_robot import THESIS_LIDAR as LIDAR  # 400 beams, 1 % noise
 
-HOME = np.zeros(3)
-ROBOT = Poses("robot", [HOME])
+ORIGIN = np.zeros(3)
+ROBOT = Poses("robot", [ORIGIN])
 
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=3
@@ -68,7 +68,7 @@ ROBOT = Poses("robot", [HOME])
 # %% slideshow={"slide_type": "subslide"} tags=["folded"]
 rng = np.random.default_rng(8)
 legs, rooms = worlds.table_legs(), worlds.situation_1()
-turns = {world.name: LIDAR.scan(world, HOME, rng) for world in (legs, rooms)}
+turns = {world.name: LIDAR.scan(world, ORIGIN, rng) for world in (legs, rooms)}
 shown = {
     w.name: [Segments("walls", w.outline()), Points("scan", turns[w.name].points()), ROBOT]
     for w in (legs, rooms)
@@ -912,7 +912,7 @@ ROOM = [FURNISHED, *(extraction.evaluate_world(worlds.room(), None, 12, k) for k
 
 # %% slideshow={"slide_type": "subslide"} tags=["folded"]
 rng = np.random.default_rng(1)
-simulated_turns = [RPLIDAR_A2.scan(worlds.room(), HOME, rng) for _ in range(8)]
+simulated_turns = [RPLIDAR_A2.scan(worlds.room(), ORIGIN, rng) for _ in range(8)]
 try:
     log = sources.open(sources.recording("rplidar-a2-1"))
     a2_turns, whose = [reading.scan for reading in log], "a real RPLIDAR A2"
@@ -999,13 +999,13 @@ for name, turns_of, share in (
 
 # %% slideshow={"slide_type": "subslide"} tags=["folded"]
 world, rng = worlds.situation_2(), np.random.default_rng(9)
-scan = LIDAR.scan(world, HOME, rng)
+scan = LIDAR.scan(world, ORIGIN, rng)
 found = lines(scan, LIDAR.model, rng)
 met = corners(found)
-J = [jacobians.J_z(HOME, each.z) for each in met]
+J = [jacobians.J_z(ORIGIN, each.z) for each in met]
 P = [J_z @ each.R @ J_z.T for J_z, each in zip(J, met, strict=True)]
 ten_times = Ellipses(
-    "landmark", [models.g(HOME, each.z) for each in met], [100 * each for each in P]
+    "landmark", [models.g(ORIGIN, each.z) for each in met], [100 * each for each in P]
 )
 sigmas = 100 * np.sqrt(np.linalg.eigvalsh(P)[:, 1])
 fig, ax = views.axes("Walls and corners of one scan", size=(8.5, 5.4))
@@ -1163,7 +1163,7 @@ R = np.diag([0.02, 0.01]) ** 2
 def innovation_covariance(position_sigma, heading_sigma):
     """S (2, 2, 2) of both walls, uncorrelated with the pose, mapped with the covariance R."""
     P_rr = np.diag([position_sigma, position_sigma, heading_sigma]) ** 2
-    H_r, H_p = LINES.H(HOME, EXPECTED)
+    H_r, H_p = LINES.H(ORIGIN, EXPECTED)
     return H_r @ P_rr @ H_r.transpose(0, 2, 1) + H_p @ R @ H_p.transpose(0, 2, 1) + R
 
 
@@ -1269,9 +1269,9 @@ for inside in (0.9, 0.95, 0.99, 0.999):
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 # three observed lines and two walls, with both gates
-mak = MAK(HOME, np.zeros((3, 3)), kind=LINES)
+mak = MAK(ORIGIN, np.zeros((3, 3)), kind=LINES)
 mak.add(["A", "B"], EXPECTED, R)
-mak.predict(HOME, np.diag([0.05, 0.05, 0.15]) ** 2)  # an inaccurate turn on the spot
+mak.predict(ORIGIN, np.diag([0.05, 0.05, 0.15]) ** 2)  # an inaccurate turn on the spot
 three = np.array([SEEN, [3.02, 0.2], [1.5, -2.0]])
 d2 = squared_distances(mak, three, R)
 pairs, new = gated_nearest_neighbours(d2, gate=9.21, new_landmark_gate=4 * 9.21)
@@ -1298,9 +1298,9 @@ for k, row in enumerate(d2):
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
 def rough_turn():
     """A filter with three walls, after an inaccurate turn."""
-    mak = MAK(HOME, np.zeros((3, 3)), kind=LINES)
+    mak = MAK(ORIGIN, np.zeros((3, 3)), kind=LINES)
     mak.add(["A", "B", "C"], [[3.0, 0.3], [2.0, 1.55], [2.02, 2.02]], R)
-    mak.predict(HOME, np.diag([0.05, 0.05, 0.15]) ** 2)
+    mak.predict(ORIGIN, np.diag([0.05, 0.05, 0.15]) ** 2)
     return mak
 
 
@@ -1489,7 +1489,7 @@ def merge(points, ends, band):
 
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-scan = LIDAR.scan(worlds.situation_2(), HOME, np.random.default_rng(9))
+scan = LIDAR.scan(worlds.situation_2(), ORIGIN, np.random.default_rng(9))
 turn = scan.points()
 for band in (0.03, 0.06, 0.15):
     ends = [*split(turn, 0, len(turn) - 1, band), len(turn) - 1]
@@ -1519,10 +1519,10 @@ def corner_errors(scan):
     """NEES of the corners of a scan, and their errors (n, 2) by true corner, NaN if not found [m]."""
     sizes, errors = [], np.full((len(world.walls), 2), np.nan)
     for corner in corners(lines(scan, LIDAR.model, rng)):
-        off = models.g(HOME, corner.z) - world.walls[:, :2]
+        off = models.g(ORIGIN, corner.z) - world.walls[:, :2]
         k = int(np.hypot(*off.T).argmin())
         if np.hypot(*off[k]) < 0.2:  # else it is no corner of the room
-            v = corner.z - models.h(HOME, world.walls[k, :2])
+            v = corner.z - models.h(ORIGIN, world.walls[k, :2])
             sizes.append(nees([v[0], wrap(v[1])], corner.R))
             errors[k] = off[k]
     return sizes, errors
@@ -1542,7 +1542,7 @@ def correlations_of_shared_walls(errors):
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 # the corners of 120 scans, and the correlation of a wall's corners
 rng = np.random.default_rng(10)
-by_scan = [corner_errors(LIDAR.scan(world, HOME, rng)) for _ in range(120)]
+by_scan = [corner_errors(LIDAR.scan(world, ORIGIN, rng)) for _ in range(120)]
 sizes = np.concatenate([sizes for sizes, _ in by_scan])
 shared = correlations_of_shared_walls(np.array([errors for _, errors in by_scan]))
 print(f"{len(sizes)} corners, {100 * np.mean(sizes < 5.99):.0f} % inside 95 % ellipses,", end=" ")
@@ -1680,7 +1680,7 @@ by_foot, by_line = (after(10, 0.5, as_foot) for as_foot in (True, False))
 
 # %% slideshow={"slide_type": "subslide"} tags=["folded"]
 def spikes_in(world, jump=0.5, beams=400):
-    scan = replace(LIDAR, beams=beams).scan(world, HOME, np.random.default_rng(8))
+    scan = replace(LIDAR, beams=beams).scan(world, ORIGIN, np.random.default_rng(8))
     return scan, spikes(scan, jump=jump).z
 
 
