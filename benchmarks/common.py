@@ -14,6 +14,8 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
+from slamlab.files import SourceError
+
 # shortest turn of a method: in its first milliseconds its code and data are not in the caches,
 # which would be a tenth of a short call's time [s]
 TURN = 0.02
@@ -124,7 +126,7 @@ def main(benchmarks, prog, argv=None, last=None):
 
     Returns
     -------
-    int, exit code: 0 done, 2 a benchmark was skipped or the file cannot be written
+    int, exit code: 0 done, 2 a benchmark was skipped, or broke off, or the file cannot be written
     """
     parser = argparse.ArgumentParser(prog=prog, description=", ".join(benchmarks))
     parser.add_argument("--json", type=Path, metavar="FILE", help="file to write the rows to")
@@ -133,21 +135,30 @@ def main(benchmarks, prog, argv=None, last=None):
     )
     options = parser.parse_args(argv)
     rows, code = [], 0
+    if not _stored(options.json, rows):
+        return 2
     for title, run in benchmarks.items():
         try:
             found = run(options.quick)
-        except Missing as error:
+        except (Missing, SourceError) as error:
             print(f"skipped: {title}: {error}", file=sys.stderr)
             code = 2
             continue
         table(title, found)
         rows += found
+        if not _stored(options.json, rows):
+            code = 2
     if last is not None:
         last(rows)
-    if options.json:
-        try:
-            options.json.write_text(json.dumps(rows, indent=1) + "\n", encoding="utf-8")
-        except OSError as error:
-            print(f"cannot write {options.json}: {error.strerror}", file=sys.stderr)
-            return 2
     return code
+
+
+def _stored(file, rows):
+    """Write rows if a file is given, after each benchmark, so that none is lost if one fails."""
+    try:
+        if file:
+            file.write_text(json.dumps(rows, indent=1) + "\n", encoding="utf-8")
+    except OSError as error:
+        print(f"cannot write {file}: {error.strerror}", file=sys.stderr)
+        return False
+    return True

@@ -11,6 +11,7 @@ import pytest
 
 from benchmarks import common
 from benchmarks.raycast import CASES, dense_numpy, python_loop, scene
+from slamlab.files import SourceError
 from slamlab.simulation.worlds.ray_casting import cast
 
 ROOT = Path(__file__).parents[3]
@@ -66,12 +67,24 @@ def test_a_file_that_cannot_be_written_is_reported_in_one_line(tmp_path, capsys)
     assert capsys.readouterr().err.count("\n") == 1
 
 
-def test_a_benchmark_whose_peer_is_missing_is_left_out_and_the_others_run(tmp_path, capsys):
+@pytest.mark.parametrize("error", [common.Missing, SourceError])
+def test_a_benchmark_that_cannot_run_is_left_out_and_the_others_run(error, tmp_path, capsys):
     def lonely(quick):
-        raise common.Missing("install the peer")
+        raise error("install the peer")
 
     file = tmp_path / "rows"
-    both = {"lonely": lonely, "fine": lambda quick: [common.row("a", 1.0, "ms", "b", 2.0)]}
+    both = {"fine": lambda quick: [common.row("a", 1.0, "ms", "b", 2.0)], "lonely": lonely}
     assert common.main(both, "x", ["--json", str(file)]) == 2
     assert "skipped: lonely: install the peer" in capsys.readouterr().err
+    assert [row["name"] for row in json.loads(file.read_text())] == ["a"]
+
+
+def test_rows_are_kept_if_a_later_benchmark_is_interrupted(tmp_path):
+    def interrupted(quick):
+        raise KeyboardInterrupt
+
+    file = tmp_path / "rows"
+    both = {"fine": lambda quick: [common.row("a", 1.0, "ms", "b", 2.0)], "long": interrupted}
+    with pytest.raises(KeyboardInterrupt):
+        common.main(both, "x", ["--json", str(file)])
     assert [row["name"] for row in json.loads(file.read_text())] == ["a"]
