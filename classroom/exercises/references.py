@@ -13,7 +13,7 @@ from classroom.exercises.function_calls.stand_ins import as_returned, replaced
 
 MAX_CALLS = 20_000  # in one run of a task
 MAX_NUMBERS = 20_000  # in the arguments of one call
-MAX_ALL_NUMBERS = 20_000_000  # in the arguments of all calls of a run
+MAX_ALL_NUMBERS = 100_000_000  # in the arguments of all calls of a run
 
 
 @dataclass(frozen=True)

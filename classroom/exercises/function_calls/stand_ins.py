@@ -26,12 +26,25 @@ def _numbers(function, argument):
     """Convert an argument to an array; a Generator is replaced by a number that it draws."""
     if isinstance(argument, np.random.Generator):
         argument = argument.random()
+    if isinstance(argument, int | np.integer):
+        return np.array(argument)
     try:
-        index = isinstance(argument, int | np.integer)
-        return np.array(argument, dtype=None if index else float)
-    except (TypeError, ValueError):
+        return _array(argument)
+    except (TypeError, ValueError, RecursionError):
         what = type(argument).__name__
         raise TypeError(f"{function} got {what}, which is not an array of numbers") from None
+
+
+def _array(argument):
+    """Convert to an array; arrays of unlike shapes, as in an edge (i, j, z, Λ), become one row."""
+    try:
+        return np.array(argument, dtype=float)
+    except ValueError:
+        if not isinstance(argument, list | tuple):
+            raise
+    parts = [_array(part) for part in argument]
+    alike = len({part.shape for part in parts}) == 1
+    return np.array(parts) if alike else np.concatenate([part.ravel() for part in parts])
 
 
 def as_returned(values):

@@ -442,8 +442,8 @@ ask(
 #
 # Together with 0.5 points for unchanged arguments, these are the 6 points of the task. For step 1, the check also
 # computes ten maps from runs without clutter and without temporary objects: at least five of them must have at
-# most 3 faults. The lesson's rule reaches step 1 only. If your `place` is
-# wrong, the check uses a correct one in its place. The check stops after 10 s.
+# most 3 faults. The lesson's rule reaches step 1 only. If your `place` or
+# your `merge` is wrong, the check uses a correct one in its place. The check stops after 10 s.
 
 
 # %%

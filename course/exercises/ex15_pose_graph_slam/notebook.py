@@ -489,9 +489,10 @@ def _():
 # $\Phi$, as in the lesson. If $\Phi$ begins at the largest $\chi^2$ of any loop, every loop has its
 # full weight at first, and most of these maps are wrong.
 #
-# **Your task.** Return poses with the smallest possible error. Any method is allowed. For example,
-# you can gate the loops before you use them, search for loops that agree with each other, weight
-# the loops, or try several initial values and compare the costs. Guiding questions:
+# **Your task.** Return poses with the smallest possible error. Any method is allowed. If your `step`
+# or your `gate_loop` is wrong, the check uses a correct one in its place. For example, you can gate
+# the loops before you use them, search for loops that agree with each other, weight the loops, or
+# try several initial values and compare the costs. Guiding questions:
 #
 # - How large is $d^2$ of each loop by odometry alone (`gate_loop`)?
 # - An accepted loop reduces the covariance of the other poses. How does this change $d^2$ of the

@@ -3,6 +3,7 @@
 import numpy as np
 
 from classroom.exercises.correctness_laws import equals, once
+from classroom.exercises.references import Reference
 from classroom.exercises.task import Probe, Task
 from course.exercises.ex05_localisation_and_mapping.calls import CALLS
 from course.exercises.ex05_localisation_and_mapping.observations import (
@@ -126,6 +127,7 @@ LOCALISE = Task(
         ),
     ),
     needs=("05-locate",),
+    references=(Reference("localise", "x P us ids zs landmarks C R", want, "xs Ps"),),
     begins=(
         "Which two functions of this exercise make one step, and in which order?",
         "What does a step without a measurement do to x and P?",

@@ -3,6 +3,7 @@
 import numpy as np
 
 from classroom.exercises.correctness_laws import Diagnosis, Law
+from classroom.exercises.references import Reference
 from classroom.exercises.task import Probe, Task
 from course.exercises.ex08_landmarks_from_scans.calls import CALLS
 from course.exercises.ex08_landmarks_from_scans.lines import across, direction, scatter, total
@@ -154,6 +155,7 @@ FIT_LINE = Task(
     diagnoses=(HALF_TURN,),
     parts=_parts,
     may_round=_promised,
+    references=(Reference("fit_line", "points", _wanted),),
     begins=(
         "Five points have p_x = 2 m, and p_y from −1 to 1 m. What are ρ and α of their wall?",
         "In which direction is the variance of these points smallest?",

@@ -166,6 +166,7 @@ SEGMENTS = Task(
         ),
     ),
     may_round=False,
+    needs=("08-fit-line",),
     begins=(
         "How many readings are near the line through the readings 0 and 6 of a scan?",
         "Which readings are left for the next line when you have found the first one?",

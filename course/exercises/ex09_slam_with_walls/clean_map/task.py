@@ -189,7 +189,7 @@ CLEAN_MAP = Task(
     may_round=False,
     laws=STEPS,
     diagnoses=MISTAKES,
-    needs=("09-place",),
+    needs=("09-place", "09-merge"),
     begins=(
         "The first scan contains three lines, and the map is empty. What do you do "
         "with each of them?",

@@ -3,6 +3,7 @@
 import numpy as np
 
 from classroom.exercises.correctness_laws import equals, once
+from classroom.exercises.references import Reference
 from classroom.exercises.task import Probe, Task
 from course.exercises.ex06_ekf_slam.beliefs import T, covariances, either_sign
 from course.exercises.ex09_slam_with_walls.calls import CALLS
@@ -220,6 +221,7 @@ MERGE = Task(
             **ALL,
         ),
     ),
+    references=(Reference("merge", "x P i j", want, "d2 x P"),),
     begins=(
         "Wall i is ρ = 2, α = 0, and wall j is ρ = −2.1, α = π. Where is each of the lines, and "
         "how far apart are they?",

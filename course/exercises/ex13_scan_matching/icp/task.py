@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from classroom.exercises.correctness_laws import TOLERANCE, equals
+from classroom.exercises.references import Reference
 from classroom.exercises.task import Probe, Task
 from course.exercises.ex13_scan_matching.calls import CALLS
 from course.exercises.ex13_scan_matching.motions import carried, looks, matched, motion
@@ -87,6 +88,7 @@ ICP = Task(
     shapes={"result": (3, 3)},
     laws=(ONE, MORE),
     needs=("13-best-motion",),
+    references=(Reference("icp", "source target T iterations", matched),),
     probes=(
         Probe("no iterations", lambda rng: looks(rng, [0, 0], (6, 7))),
         Probe("more points in the source", lambda rng: looks(rng, [1, 4], (40, 12))),

@@ -171,7 +171,7 @@ OVERLAP = Task(
         ),
     ),
     may_round=False,
-    needs=("13-kernel", "13-line-step"),
+    needs=("13-icp", "13-kernel", "13-line-step"),
     begins=(
         "How would you transform the source by a rotation of 90° and no translation, "
         "and how many of its points are then near a target point?",

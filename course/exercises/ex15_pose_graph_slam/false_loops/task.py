@@ -176,7 +176,7 @@ FALSE_LOOPS = Task(
         Probe("a single loop", _once, (STEPS[0].name,)),
     ),
     may_round=False,
-    needs=("15-jacobians",),
+    needs=("15-jacobians", "15-step", "15-gate"),
     begins=(
         "Odometry predicts where each loop should lead. How accurate is this prediction after many "
         "steps?",

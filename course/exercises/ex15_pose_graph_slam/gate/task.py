@@ -6,6 +6,7 @@ import numpy as np
 from scipy.stats import chi2
 
 from classroom.exercises.correctness_laws import Law, equals, once
+from classroom.exercises.references import Reference
 from classroom.exercises.task import Probe, Task
 from course.exercises.ex15_pose_graph_slam.calls import CALLS
 from course.exercises.ex15_pose_graph_slam.edges import sized
@@ -13,6 +14,7 @@ from course.exercises.ex15_pose_graph_slam.step.graphs import (
     LONG,
     drawn_information,
     graphs,
+    split,
     whitened,
 )
 from slamlab.geometry import between, compose, inverse, wrap
@@ -73,6 +75,12 @@ def want(given):
     S = J @ PJt + np.linalg.inv(given["information"])
     d2 = np.sum(v * np.linalg.solve(S, v[..., None])[..., 0], axis=1)
     return {"d2": d2}
+
+
+def _of_loop(given):
+    pair, z, information = split(given["loop"]).values()
+    d2 = want(given | {"pair": pair, "z": z, "information": information})["d2"]
+    return {"d2": d2, "accepted": d2 <= given["gates"][:, 3]}
 
 
 def _fixed(given):
@@ -158,6 +166,7 @@ GATE = Task(
         ),
     ),
     needs=("15-jacobians",),
+    references=(Reference("gate_loop", "poses H loop gates", _of_loop, "d2 accepted"),),
     parts=_parts,
     begins=(
         "Which errors does the residual of a true loop contain, and which of them does Λ describe?",

@@ -68,6 +68,12 @@ def whitened(poses, pairs, measured, information):
     return J.swapaxes(1, 2).reshape(-1, 3 * len(poses)), r.ravel()
 
 
+def split(edges):
+    """The three arrays of edges (i, j, z, Λ), each of which is one row of 14 numbers."""
+    information = edges[..., 5:].reshape(*edges.shape[:-1], 3, 3)
+    return {"pairs": edges[..., :2], "measured": edges[..., 2:5], "information": information}
+
+
 def best(poses, pairs, measured, information):
     """(n, 3) the step of least linearised cost, pose 0 held."""
     J, r = whitened(poses, pairs, measured, information)

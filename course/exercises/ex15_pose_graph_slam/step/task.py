@@ -5,9 +5,17 @@ from dataclasses import replace
 import numpy as np
 
 from classroom.exercises.correctness_laws import ROUNDING, equals
+from classroom.exercises.references import Reference
 from classroom.exercises.task import Task
 from course.exercises.ex15_pose_graph_slam.calls import CALLS
-from course.exercises.ex15_pose_graph_slam.step.graphs import PROBES, best, each, graphs, whitened
+from course.exercises.ex15_pose_graph_slam.step.graphs import (
+    PROBES,
+    best,
+    each,
+    graphs,
+    split,
+    whitened,
+)
 from slamlab.geometry import wrap
 
 SHARE = 0.1  # of the best step: a smaller step counts as no step
@@ -17,6 +25,10 @@ def _wanted(inputs):
     poses = inputs["poses"] + each(best, inputs)
     poses[..., 2] = wrap(poses[..., 2])
     return {"result": poses}
+
+
+def _with_edges(inputs):
+    return _wanted({"poses": inputs["poses"], **split(inputs["edges"])})
 
 
 def _normal_equations(inputs):
@@ -104,4 +116,5 @@ STEP = Task(
     ),
     probes=PROBES,
     parts=_parts,
+    references=(Reference("step", "poses edges", _with_edges),),
 )
