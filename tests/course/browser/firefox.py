@@ -20,6 +20,7 @@ from tornado.websocket import websocket_connect
 from tests.timeouts import PATIENCE
 
 PROGRAMS = ("firefox", "firefox-esr")
+LEFT = "NetworkError when attempting to fetch resource"
 LISTENING = re.compile(r"BiDi listening on (ws://\S+)")
 
 
@@ -86,7 +87,10 @@ class Tab:
 
     def open(self, address):
         """Open an address and wait until all of it is there."""
+        before = len(self.wrong)
         self._say("browsingContext.navigate", context=self._tab, url=address, wait="complete")
+        # what the page before was still fetching is given up
+        self.wrong[before:] = [error for error in self.wrong[before:] if LEFT not in error]
 
     def evaluate(self, script):
         """The value of an expression, str, bool or number; of a promise what it promises."""

@@ -86,7 +86,8 @@ def test_a_finger_drags_as_a_mouse_does(editor):
     for share in (0.3, 0.6, 1):
         touch("touchMove", x - 90 * share, y)
     touch("touchEnd")
-    editor.until("1.0 0.5 0.2", there=False)
+    moved = "(area) => /(^|\\n)(-|0\\.[0-4])\\S* 0\\.5 0\\.2/.test(area.value)"
+    editor.page.wait_for_function(moved, arg=editor.rows.element_handle())
     _, ((x, y, _),) = editor.kernel()
     assert x < 0.5 and y == 0.5
 

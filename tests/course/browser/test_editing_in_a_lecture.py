@@ -21,7 +21,9 @@ def slide(cell, kind="slide"):
 
 def lecture(visit, lab_folder, *cells, has_slides=True):
     """A lecture on a notebook with these cells, just started."""
-    nbformat.write(fresh(*cells), lab_folder / "made_up.ipynb")
+    made = lab_folder / "made_up.new"
+    nbformat.write(fresh(*cells), made)
+    made.replace(made.with_suffix(".ipynb"))  # the page before may still be saved into the old file
     visit.open("made_up.ipynb")
     shown = Lecture(visit)
     visit.page.locator(".slamlab-lecture-start").click()
