@@ -41,7 +41,8 @@ from slamlab.layers import Ellipses, Poses, Segments
 # to $z$, $J_z$ (2 × 2). (The hints write `J_x` for $J_{\mathrm r}$, because the code calls the pose `x`.) Note
 # that $\alpha$ is also inside cosine and sine. If $\rho$ is negative, leave it negative: the normal keeps
 # pointing away from the robot. An entry of $C$ and $X$ may have an error of $10^{-8}$ of the largest entry of its
-# matrix. In some cases the robot is 1000 km from the origin, where finite differences have larger errors.
+# matrix. In some cases the robot is a million kilometres from the origin, where finite
+# differences have larger errors.
 
 
 # %%

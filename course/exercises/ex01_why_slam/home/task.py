@@ -113,11 +113,12 @@ MISTAKES = (
     ),
     Diagnosis(
         "leaps home",
-        "Your trajectories jump into the dock in one step, and you do not correct the previous "
-        "lap. Its errors occurred in all of its steps, so distribute the gap over all steps.",
+        "Your trajectories jump into the dock in one step, so the errors of the lap remain. They "
+        "occurred in all of its steps: distribute the gap over all steps. If you correct the turns "
+        "first: does this make the gap smaller, in laps to the left and in laps to the right?",
         lambda inputs, outputs: np.median(_jump(inputs, outputs)) > 0.5,
-        asks="How long is the longest step of your trajectory? In which steps did the errors of a "
-        "lap occur?",
+        asks="How large is the gap at the end of each lap before you set the pose to the dock, and "
+        "how large is it by odometry alone? In which steps did the errors of a lap occur?",
     ),
     Diagnosis(
         "lost beyond",

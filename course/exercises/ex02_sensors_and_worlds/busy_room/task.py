@@ -233,9 +233,14 @@ MISTAKES = (
     ),
     Diagnosis(
         "too-small",
-        "Your error is far too small for most sensors. Is your gate too narrow, do you subtract "
-        "too much for the quantisation, or do you use beams with equal readings?",
-        lambda inputs, outputs: np.median(_far_off(inputs, outputs)) < -0.3,
+        "Your error is too small, for most sensors or for those with the largest steps. Is your "
+        "gate too narrow, do you subtract too much for the quantisation (which variance has an "
+        "error between minus half a step and half a step?), or do you use beams with equal "
+        "readings?",
+        lambda inputs, outputs: (
+            np.median(_far_off(inputs, outputs)) < -0.3
+            or _rounded(inputs, outputs) < np.log(BIAS[0])
+        ),
         asks="Which readings of the wall do you leave out, and which variance do you subtract?",
     ),
     Diagnosis(

@@ -86,7 +86,8 @@ def _why_spread(inputs, outputs):
         inputs, outputs, lambda z, error: abs(_rms(z) / error - 1) if error else _rms(z) > 0
     )
     z = normalised(inputs, outputs, 0)
-    related, z = np.nanmean(z[:, 1:] * z[:, :-1]), z[np.isfinite(z)]
+    related = np.nanmean(z[:, 1:] * z[:, :-1]) / np.nanmean(z**2)
+    z = z[np.isfinite(z)]
     beyond = ", ".join(
         f"{np.mean(z < -t):.3f} and {np.mean(z > t):.3f} ({p / 2:.3f})" for t, p in BEYOND
     )

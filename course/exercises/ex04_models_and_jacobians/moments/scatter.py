@@ -77,9 +77,14 @@ def _sampled(inputs, outputs):
     )
 
 
-def _wheels_trusted(inputs, outputs):
-    without = inputs | {"C": 0 * inputs["C"]}
-    return bool(np.median(lost(without, outputs)) < np.median(lost(inputs, outputs)) / 5)
+def _fit(share, *names):
+    """Whether the moments are rather those of P or C times ``share``, entry by entry."""
+
+    def matches(inputs, outputs):
+        others = inputs | {name: inputs[name] * share(inputs[name]) for name in names}
+        return bool(np.median(lost(others, outputs)) < np.median(lost(inputs, outputs)) / 5)
+
+    return matches
 
 
 def _wrapped(inputs, outputs):
@@ -112,9 +117,17 @@ MISTAKES = (
     Diagnosis(
         "wheels-trusted",
         "Your covariance does not contain the control noise C of distance and turn.",
-        _wheels_trusted,
+        _fit(np.zeros_like, "C"),
         on=SLIP,
         asks="Which terms of your covariance depend on C?",
+    ),
+    Diagnosis(
+        "uncorrelated",
+        "Your moments are those of uncorrelated errors. P and C may be full matrices: draw or "
+        "choose values with these covariances, also between components.",
+        _fit(lambda S: np.eye(S.shape[-1]), "P", "C"),
+        asks="Which entries of P and C does your result not depend on? Compute the covariance of "
+        "your samples or nodes.",
     ),
     Diagnosis(
         "too-few-samples",

@@ -20,6 +20,7 @@ ENOUGH = 53 / 60  # over 100 seeds three right programs find at least 55, a medi
 PRECISE = np.array([1.5, 6.0])  # by so much odometry and sensor of a second set are better
 PARTS = {"pose": np.s_[:3], "position": np.s_[:2], "heading": np.s_[2:]}
 # of the median NEES: right programs have 2.4 to 3.6, for a kind 2.3 to 3.8, 1.4 to 2.5, 0.6 to 1.3
+FREE = "four landmarks, no outliers"
 LEAST, MOST = np.array([2.3, *[1.9, 1.3, 0.5] * 2]), np.array([3.7, *[4.5, 2.8, 1.6] * 2])
 
 
@@ -134,7 +135,7 @@ def _on_the_way(inputs):
         "distances by the map from the start to the first landmarks [m]": np.linalg.norm(
             places - inputs["x"][0, :2], axis=1
         ),
-        "their measured ranges, some of them outliers [m]": inputs["zs"][0, seen, 0],
+        "their measured ranges [m]": inputs["zs"][0, seen, 0],
     }
 
 
@@ -237,10 +238,17 @@ LOST = Task(
             asks="How does your method compute P in each step? How large are the errors of "
             "position and heading, compared with σ in your P?",
         ),
+        Diagnosis(
+            "rejects-without-outliers",
+            "Few robots are localised even without outliers. Either your filter rejects correct "
+            "measurements (is each difference of bearings wrapped?), or it chooses the heading by "
+            "too few of them.",
+            lambda inputs, outputs: np.mean(offs(inputs, outputs) < LOCALISED) < 0.3,
+            on=FREE,
+            asks="How many correct measurements does your filter reject, and which ones?",
+        ),
     ),
-    probes=(
-        Probe("four landmarks, no outliers", lambda rng: robots(rng, 6, 25, 4, 0.0), ("better",)),
-    ),
+    probes=(Probe(FREE, lambda rng: robots(rng, 6, 25, 4, 0.0), ("better",)),),
     parts=with_wrapped_heading("xs"),
     may_round=False,
     begins=(

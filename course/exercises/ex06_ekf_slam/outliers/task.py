@@ -94,7 +94,8 @@ def _poor(on):
     return Diagnosis(
         "poor-without-outliers",
         "Even in runs without outliers, x and P are not those of least squares. Either your gate "
-        "rejects correct measurements, or another part of the step is wrong: let your gate accept "
+        "rejects correct measurements: compare vᵀ S⁻¹ v with a quantile of the χ² distribution "
+        "with two degrees of freedom. Or another part of the step is wrong: let your gate accept "
         "everything, then your function must solve task 3.",
         lambda inputs, outputs: not ENDS.sure(inputs, outputs),
         on,

@@ -238,6 +238,17 @@ MORNINGS = Task(
             "doors in common that were passed on one morning?",
         ),
         Diagnosis(
+            "another-size",
+            "Your positions are good, but P does not fit the distances between doors, by a large "
+            "factor. Is a standard deviation used as a variance, or is the own error of a reading "
+            "counted several times, or not at all?",
+            lambda inputs, outputs: (
+                _error(inputs, outputs) <= FAIR and not 0.5 <= _nees_ways(inputs, outputs) <= 2
+            ),
+            asks="Which variance has one reading if its morning has no common error? Which one "
+            "does your code use when it computes P?",
+        ),
+        Diagnosis(
             "sure-of-where-it-lies",
             "P is consistent for the distances between doors, but overconfident for single doors, "
             "at least in half of the corridors. The position of the whole map has the error of the "

@@ -135,6 +135,7 @@ def _displaced(inputs, outputs):
     return false.mean() > 0.5 and copies > 0.5 * false.sum()
 
 
+WALLS_ONLY = "measurements of walls only"
 MISTAKES = (
     Diagnosis(
         "displaced",
@@ -172,6 +173,15 @@ MISTAKES = (
         asks="In which scan does your code delete or reject a true wall? Is the wall in "
         "view in this scan, and with which wall do you associate its measurement?",
     ),
+    Diagnosis(
+        "wrong-without-clutter",
+        "Most of your maps are wrong even without clutter and temporary objects. Is the first scan "
+        "taken at the start, before the first control input, and does each control input come "
+        "before the next scan? Does a measured wall always correct the pose?",
+        lambda inputs, outputs: np.median(wrong(inputs, outputs).sum(axis=1)) > 3,
+        on=WALLS_ONLY,
+        asks="At which pose is the first scan taken, and which control input leads to the second?",
+    ),
 )
 
 
@@ -184,7 +194,7 @@ CLEAN_MAP = Task(
     title="Make it better: a map without false walls",
     call=CALLS["09-clean-map"],
     inputs=rooms.runs,
-    probes=(Probe("measurements of walls only", _walls_only, ("better",)),),
+    probes=(Probe(WALLS_ONLY, _walls_only, ("better",)),),
     shapes=lambda inputs: {"walls": (None, 2), "counts": inputs["x"].shape[:1]},
     may_round=False,
     laws=STEPS,

@@ -218,7 +218,8 @@ RELOCALISE = Task(
         Diagnosis(
             "not-moved",
             "Your estimate does not follow the odometry before the kidnapping, even where it does "
-            "not jump. Compose each pose that you store with the motion of each step.",
+            "not jump. Compose each pose that you store with the motion of each step, and return "
+            "the pose after the motion.",
             lambda i, o: not kept(i, o) and lost(i, o) < 0.9 and not _follows(i, o),
             asks="Which of your poses do you move by a motion, in which frame, and when?",
         ),

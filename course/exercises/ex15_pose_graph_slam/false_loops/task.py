@@ -146,10 +146,21 @@ MISTAKES = (
         "odometry differs between runs and grows with the number of steps. How far may a true "
         "loop be from its prediction, according to the covariance of odometry? If you do use this "
         "covariance: a false loop may pass as well. Which of the loops that pass agree with each "
-        "other?",
+        "other? If you compare maps by their costs: a loop that a map does not use must increase "
+        "its cost, too.",
         _in_some,
         asks="In what do the runs differ in which you use the true loops and those in which you do "
         "not?",
+    ),
+    Diagnosis(
+        "group-followed",
+        "Some of your maps agree with most of the loops, and others do not. Six false loops agree "
+        "with each other and may attract a map. With weights alone, the result depends on the "
+        "initial Φ; with gates alone, on the order of the loops. Try several, and compare the "
+        "costs.",
+        lambda inputs, outputs: _fitting(inputs, outputs).max() > 0.5,
+        asks="With which loops does each of your wrong maps agree: the ten true ones, or the six "
+        "false ones that agree with each other?",
     ),
 )
 

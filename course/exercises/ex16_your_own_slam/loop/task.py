@@ -70,10 +70,12 @@ LOOP = Task(
         ),
         Diagnosis(
             "far-off",
-            "Your SLAM is far worse than odometry. If it closes a loop: does the constraint state "
-            "the pose of the later scan in the frame of the earlier one, and was the match right?",
+            "Your SLAM is far worse than odometry. Does it use the odometry of each reading, also "
+            "without a scan? If it closes a loop: does the constraint state the pose of the later "
+            "scan in the frame of the earlier one, and was the match right?",
             lambda i, o: (met(i, o) > 2 * met(i, {"trajectory": odometry_poses(i)})).any(),
-            asks="How large is the residual of each constraint before and after the optimisation?",
+            asks="How large is the residual of each constraint before and after the optimisation? "
+            "What does your code do with a reading without a scan?",
         ),
         Diagnosis(
             "not-closed",
