@@ -136,8 +136,10 @@ def test_played_is_scrubbed_pixel_for_pixel(opened, made):
     page.button.click()
     page.until("frame > 8")
     page.button.click()
-    page.page.wait_for_timeout(100)
-    frame = int(page.root.get_attribute("data-frame"))
+    frame, before = int(page.root.get_attribute("data-frame")), None
+    while frame != before:  # a frame that was asked for before the stop may still be drawn
+        page.page.wait_for_timeout(200)
+        frame, before = int(page.root.get_attribute("data-frame")), frame
     assert page.at(frame) == stepped[frame]
 
 
