@@ -77,7 +77,7 @@ def relocalise(start, motions, measurements, posts):
     result = []
     for motion, seen in zip(motions, measurements):
         best = max(s for s, _ in tracks)
-        poses = corrected(compose(np.array([x for _, x in tracks]), told), seen, posts)
+        poses = corrected(compose(np.array([x for _, x in tracks]), motion), seen, posts)
         scores = np.array([s for s, _ in tracks]) + fit(poses, seen, posts)
         if len(seen) >= 2:
             new = guesses(seen, posts)
@@ -103,7 +103,7 @@ def relocalise(start, motions, measurements, posts):
     poses, scores = np.array([start], dtype=float), np.zeros(1)
     layers_, parents = [], []
     for motion, seen in zip(motions, measurements):
-        moved = corrected(compose(poses, told), seen, posts)
+        moved = corrected(compose(poses, motion), seen, posts)
         value = scores + fit(moved, seen, posts)
         parent = np.arange(len(moved))
         if len(seen) > 1:
