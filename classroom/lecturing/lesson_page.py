@@ -72,8 +72,7 @@ class LessonPage:
 
     def __init__(self, page):
         self.page, self.errors, self.external_requests = page, [], []
-        # JupyterLab repeats a request that a busy machine fails: no fault of the lesson
-        page.on("pageerror", lambda e: "Failed to fetch" in str(e) or self.errors.append(str(e)))
+        page.on("pageerror", self._failed)
         page.on("request", self._requested)
 
     def start(self):
@@ -91,6 +90,11 @@ class LessonPage:
     def call(self, module, name, argument=None):
         """Call a function in a module of the lecture mode, such as "rehearsal.js"."""
         return self.page.evaluate(_CALL, [module, name, argument])
+
+    def _failed(self, error):
+        # JupyterLab repeats a request that a busy machine fails: no fault of the lesson
+        if "Failed to fetch" not in str(error):
+            self.errors.append(str(error))
 
     def _requested(self, request):
         if not request.url.startswith(("http://127.0.0.1:", "http://localhost:", "data:", "blob:")):

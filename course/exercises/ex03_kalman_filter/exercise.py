@@ -1,5 +1,5 @@
 """Exercise 03, the Kalman filter. In this order: ``beliefs`` (random inputs, judged by samples and
-least squares), ``update``, ``filter``, ``consistent``, ``capacitor``, ``outliers`` (outliers)."""
+least squares), ``update``, ``filter``, ``consistent``, ``capacitor``, ``outliers`` (any method)."""
 
 from classroom.exercises.exercise import Exercise
 from course.exercises.ex03_kalman_filter.capacitor.task import CAPACITOR

@@ -1,6 +1,6 @@
 """Exercise 06, EKF-SLAM. In this order: ``beliefs``, ``augment``, ``update`` (blocks of the
 filter), ``runs``, ``ends`` (whole runs and their judgement), ``slam``, ``consistent`` (NIS and
-NEES), ``outliers`` (outliers)."""
+NEES), ``outliers`` (with a gate)."""
 
 from classroom.exercises.exercise import Exercise
 from course.exercises.ex06_ekf_slam.augment.task import AUGMENT

@@ -385,10 +385,8 @@ def corrected(poses, measurements, posts):
 
 def guesses(measurements, posts):
     """All poses in the hall (n, 3) from which two of the measurements agree with two of the posts."""
-    x, y = (
-        measurements[:, 0] * np.cos(measurements[:, 1]),
-        measurements[:, 0] * np.sin(measurements[:, 1]),
-    )
+    r, beta = measurements.T
+    x, y = r * np.cos(beta), r * np.sin(beta)
     i, j = np.triu_indices(len(measurements), 1)
     a, b = np.nonzero(~np.eye(len(posts), dtype=bool))
     (sx, sy), (px, py) = (x[j] - x[i], y[j] - y[i]), (posts[b] - posts[a]).T

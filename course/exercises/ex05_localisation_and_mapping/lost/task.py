@@ -19,8 +19,8 @@ LOCALISED = 0.4  # largest rms error of the position of a robot that is localise
 ENOUGH = 53 / 60  # over 100 seeds three right programs find at least 55, a median of nine 37 to 53
 PRECISE = np.array([1.5, 6.0])  # by so much odometry and sensor of a second set are better
 PARTS = {"pose": np.s_[:3], "position": np.s_[:2], "heading": np.s_[2:]}
-# of the median NEES: right programs have 2.4 to 3.6, for a kind 2.3 to 3.8, 1.4 to 2.5, 0.6 to 1.3
 FREE = "four landmarks, no outliers"
+# of the median NEES: right programs have 2.4 to 3.6, for a kind 2.3 to 3.8, 1.4 to 2.5, 0.6 to 1.3
 LEAST, MOST = np.array([2.3, *[1.9, 1.3, 0.5] * 2]), np.array([3.7, *[4.5, 2.8, 1.6] * 2])
 
 

@@ -125,7 +125,7 @@ LIFE = Task(
         _counts(
             "left",
             "a wall has `lives` lives minus the scans since its last observation",
-            "How many lives does a observation restore, and how many does a miss cost?",
+            "How many lives does an observation restore, and how many does a miss cost?",
             _lives,
             alone=False,
             step=_gap,

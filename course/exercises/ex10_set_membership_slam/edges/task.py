@@ -56,7 +56,7 @@ def _near(rng):
     return given | {"z": np.column_stack([given["bounds"][:, 0], given["z"][:, 1]])}
 
 
-def direction_and_range(given):
+def direction_and_d_abs(given):
     """Direction and d_abs, (n,) each [rad]."""
     right, left = given["heading"].T
     return (right + left) / 2 + given["z"][:, 1], (left - right) / 2 + given["bounds"][:, 1]
@@ -64,7 +64,7 @@ def direction_and_range(given):
 
 def lines(given):
     """The four edges, moved out by the box's outermost corner."""
-    direction, d_abs = direction_and_range(given)
+    direction, d_abs = direction_and_d_abs(given)
     turns = [direction, direction + np.pi]
     turns += [direction + d_abs + np.pi / 2, direction - d_abs - np.pi / 2]
     angles = np.stack(turns, axis=1)
@@ -93,7 +93,7 @@ def _are(*which):
 
 
 def _on_the_way(given):
-    direction, d_abs = direction_and_range(given)
+    direction, d_abs = direction_and_d_abs(given)
     return {"direction [rad]": direction, "d_abs [rad]": d_abs}
 
 
@@ -103,7 +103,7 @@ def _law(name, points, says, which, asks):
 
 def _promised(given):
     """r is at least its bound, d_abs well below a right angle."""
-    return (given["z"][:, 0] >= given["bounds"][:, 0]) & (direction_and_range(given)[1] < 1.3)
+    return (given["z"][:, 0] >= given["bounds"][:, 0]) & (direction_and_d_abs(given)[1] < 1.3)
 
 
 EDGES = Task(
